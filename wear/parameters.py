@@ -139,9 +139,12 @@ class ParametrisedEquation(WearEquation):
         """Return the sum (scenes, starts, parameters) over all nodes of `weights` times the
         derivatives of what has a `gradient` by symbol of the model; of one scene each row may have
         phases of its own."""
-        by_symbol = gradient(
-            u, forcing, lambda values: np.sum(weights * values, axis=(2, 3), keepdims=True)
-        )
+
+        def summed(values: Real) -> Real:
+            at_all = np.broadcast_to(values, weights.shape)
+            return np.asarray(np.einsum("abqm,abqm->ab", weights, at_all)[..., None, None])
+
+        by_symbol = gradient(u, forcing, summed)
         by_load = by_symbol.pop("U_a")
         rows = [self.symbols.index(symbol) for symbol in by_symbol]
         sums = np.stack([*by_symbol.values()], axis=-1)[:, :, 0, 0]

@@ -19,15 +19,15 @@ import numpy as np
 
 from wear.binding import bind
 from wear.cycles import groups
+from wear.equation import WearEquation
 from wear.faults import Faults, UsageError
 from wear.load import Constant
 from wear.load.spans import span
 from wear.loss_of_contact.count import CountRequest, count_scenes
 from wear.loss_of_contact.period_map import margin_roundoff
-from wear.loss_of_contact.switching import edge_of_contact
+from wear.loss_of_contact.switching import Edge, edge_of_contact
 from wear.loss_of_contact.tangent import stage_tangents
-from wear.model import Model
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import BoolArray, FloatArray
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
 from wear.parameters import no_such_number, parameters_of, parametrised
@@ -37,6 +37,10 @@ from wear.scene import Scene, as_scene
 from wear.states import notices_of_wear
 
 PERIOD = "load.period_s"
+ONE_SIDED = (
+    "before any wear contact just grazes: the derivatives are those from one side, "
+    "on which the wear goes on"
+)
 GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
 
 
@@ -83,7 +87,7 @@ def gradients(
     pace.begin("scene", len(scenes))
     for which in groups(scenes):
         some, parts = _in_parts([scenes[i] for i in which.tolist()])
-        part = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
+        part, _ = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
         done += len(which)
         pace.at(done)
         per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
@@ -125,14 +129,16 @@ def _of_one_variant(
     cycles: FloatArray,
     rtol: float,
     say: Callable[[str], None],
-) -> Tangents:
-    """Return the derivatives of the wear of scenes of one variant; of one alone if its load
-    consists of blocks, of which it tells `say` how far they are."""
+) -> tuple[Tangents, BoolArray]:
+    """Return the derivatives of the wear of scenes of one variant, and of which of these contact
+    grazes before any wear; of one alone if its load consists of blocks, of which it tells `say`
+    how far they are."""
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
     start, missed = np.zeros((2, number))
     slope, slope_error = np.zeros((2, number, len(keys)))
+    grazes = np.full(number, False)
     done = 0
     while True:
         acting = [span(scene.load, done) for scene in scenes]
@@ -143,6 +149,8 @@ def _of_one_variant(
         if scenes[0].contact.ends_at_3_sigma:
             each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
             edges = [edge_of_contact(own.model, own.loads[0]) for own in each]
+            if done == 0:
+                grazes[:] = [_grazes(own, edge) for own, edge in zip(each, edges, strict=True)]
             begins = zip(wanted[:, -1], start, missed, strict=True)
             counts = count_scenes(
                 [
@@ -168,7 +176,15 @@ def _of_one_variant(
             break
         done = acting[0].until
     unknown = np.isnan(found.derivative_error)
-    return found._replace(derivative_error=np.where(unknown, np.inf, found.derivative_error))
+    error = np.where(unknown, np.inf, found.derivative_error)
+    return found._replace(derivative_error=error), grazes
+
+
+def _grazes(equation: WearEquation, edge: Edge) -> bool:
+    """Return whether contact grazes before any wear, as where the closure is 3 sigma."""
+    model, none = equation.model, np.zeros_like(edge.grazing)
+    uncertainty = margin_roundoff(model, equation.loads[0].maximum, none)
+    return bool(np.any(np.abs(model.margin(none, edge.grazing)) <= uncertainty))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -281,25 +297,12 @@ def sensitivity(
     wanted = checked_request(scene, cycles, rtol)
     numbers = parameters_of(scene)
     counted = np.array(wanted, dtype=float)
-    found = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)
+    found, grazes = _of_one_variant([scene], list(numbers), counted, rtol, Pace(progress).say)
     u, _, derivative, error, added = (part[0] for part in found)
     values = np.array(list(numbers.values()))
     known = np.flatnonzero(np.isfinite(u)).tolist()
     worn = notices_of_wear(scene, [wanted[i] for i in known], u[known])
-    notices = (*worn, *_one_sided(bind(scene), scene))
+    notices = (*worn, *([ONE_SIDED] if grazes[0] else []))
     return Sensitivities(
         scene, wanted, u, added, tuple(numbers), values, derivative, error, notices
     )
-
-
-def _one_sided(model: Model, scene: Scene) -> tuple[str, ...]:
-    """Return whether contact grazes before any wear, as where the closure is 3 sigma."""
-    if not model.ends_at_3_sigma:
-        return ()
-    load = span(scene.load, 0).load
-    heights = edge_of_contact(model, load).grazing
-    none = np.zeros_like(heights)
-    if np.all(np.abs(model.margin(none, heights)) > margin_roundoff(model, load.maximum, none)):
-        return ()
-    side = "before any wear contact just grazes: the derivatives are those from one side"
-    return (f"{side}, on which the wear goes on",)

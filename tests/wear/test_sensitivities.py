@@ -12,6 +12,7 @@ from derive.results.sensitivities import POWERS, WITHOUT_EFFECT
 from wear.cycles import sweep
 from wear.faults import UsageError
 from wear.load import Block, Blocks, Constant, Force, Harmonics, Load, Sine, Table
+from wear.loss_of_contact import tangent
 from wear.parameters import parameters_of
 from wear.scene import Scene, load_scene
 from wear.scene.variant import KEYS
@@ -338,3 +339,25 @@ def test_under_a_constant_load_the_period_only_serves_to_count() -> None:
 def test_a_number_without_influence_is_refused_with_a_remedy() -> None:
     with pytest.raises(UsageError, match=r"pin\.hardness_MPa.*\n.*did you mean load\.period_s"):
         gradients([load_scene("section4")], ["pin.hardness_MPa", "load.periods"], CYCLES)
+
+
+def test_where_increments_are_a_series_their_derivatives_are_one_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A series takes fewer cycles than the derivatives at every node need, and gives the same."""
+    changes = {"contact.closure_mm": 1e-3, "support.stiffness_MPa_per_mm": 1e5}
+    scene = load_scene("section4-cutoff").with_(changes)
+    cycles, taken = [300, 9000, 1e8], []
+    linearise = tangent.map_derivatives
+
+    def counted(cycle: Any, equation: Any, starts: FloatArray) -> tangent.MapDerivatives:
+        taken.append(len(starts))
+        return linearise(cycle, equation, starts)
+
+    monkeypatch.setattr(tangent, "map_derivatives", counted)
+    by_series = sensitivity(scene, cycles)
+    monkeypatch.setattr(tangent, "_sampled", lambda _: np.empty(0))
+    each = sensitivity(scene, cycles)
+    assert taken[0] < 0.9 * taken[1]
+    assert np.all(np.abs(by_series.derivative - each.derivative) <= by_series.error + each.error)
+    assert np.all(by_series.elasticity_error <= 1e-11)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.increments import TO_ROUNDOFF, Coordinate
+from wear.loss_of_contact.increments import TO_ROUNDOFF, Coordinate, IncrementSeries
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels
@@ -31,18 +31,24 @@ class LimitWear(NamedTuple):
 
 
 class TabulatedIterates(NamedTuple):
-    """Iterates by a `table` of the number of cycles n as a function of z, a `coordinate` of the
-    wear; n is the integral of the density on `panels`. The estimated error of n, `count_error`,
-    where each cell starts and where the last one ends; the `limit_wear` at the end of the table, if
-    any; and the number of `whole` cycles in it, up to rounding of the limit wear."""
+    """Iterates by a `table` of the number of cycles n as a function of z, the coordinate of the
+    wear in the `series` of the increments; n is the integral of the density on `panels`. The
+    estimated error of n, `count_error`, where each cell starts and where the last one ends; the
+    `limit_wear` at the end of the table, if any; and the number of `whole` cycles in it, up to
+    rounding of the limit wear."""
 
-    coordinate: Coordinate
+    series: IncrementSeries
     table: Cells
     panels: Panels
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: FloatArray
     whole: float
+
+    @property
+    def coordinate(self) -> Coordinate:
+        """Return the coordinate z of the wear."""
+        return self.series.coordinate
 
     @property
     def in_z(self) -> Iterates:

@@ -150,7 +150,7 @@ class IncrementSeries(NamedTuple):
 def increments(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
     """Return the increment (mm) of a cycle from each z (k,), by the series with the numbers `of`
     (k,)."""
-    panel, t, w = _located(known, of, z)
+    panel, t, w = located(known, of, z)
     series, level = (np.concatenate([each[i] for each in known]) for i in (3, 2))
     vanishes = np.array([each.domain.vanishes for each in known])[of]
     logarithm = np.einsum("ij,ij->i", chebyshev_values(t, series.shape[1]), series[panel])
@@ -160,12 +160,12 @@ def increments(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) ->
 def relative_error(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
     """Return the relative error of the increment at each z (k,): the larger misfit at the two
     CHECKS next to it."""
-    panel, t, _ = _located(known, of, z)
+    panel, t, _ = located(known, of, z)
     misfit = np.concatenate([each.misfit for each in known])
     return near_checks(misfit[panel], t[:, None])[:, 0]
 
 
-def _located(
+def located(
     known: Sequence[IncrementSeries], of: IntArray, z: FloatArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
     """Return, for each z (k,) on the series with the numbers `of` (k,), its panel among those of

@@ -119,7 +119,7 @@ def _tabulated(
     error[:, 1:] += np.cumsum(misfit, axis=1)
     return [
         TabulatedIterates(
-            on.series.coordinate,
+            on.series,
             own,
             on.panels,
             lost,

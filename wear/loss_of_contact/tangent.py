@@ -13,29 +13,34 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.arrest import TabulatedIterates
+from wear.loss_of_contact.arrest import RESOLVABLE, TabulatedIterates
 from wear.loss_of_contact.contact import ContactPart
-from wear.loss_of_contact.increments import step
+from wear.loss_of_contact.increments import Coordinate, IncrementSeries, increments, located, step
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Edge, turning_points
-from wear.numerics.chebyshev import chebyshev_nodes
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
+from wear.numerics.rows import stacked, take
 from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates
-from wear.orbit.panels import CHECKS
+from wear.orbit.panels import CHECKS, near_checks
 from wear.orbit.period_map import settings
 from wear.orbit.segments import AnyIterates
-from wear.orbit.tangent import SumIncrements, Tangents, after_on_cells, sums_on_cells
+from wear.orbit.tangent import Tangents, after_on_cells, sums_on_cells
 from wear.orbit.transient import SAFETY
 from wear.parameters import Gradient, ParametrisedEquation
 from wear.scene_orbit import SceneOrbit
 
 LIMIT_DIGITS = 1e12  # of the derivative of a limit wear, which follows from the margin alone
+MORE = 4  # nodes than the derivative of the series has coefficients
+NEGLIGIBLE = 1e-12  # coefficient of the derivative of the logarithm of the increments
 SAME = 4 * ROUNDOFF  # phase
 SMOOTH = 1e-3  # share of an increment in its second difference, at most
 STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is solved
@@ -55,12 +60,12 @@ def stage_tangents(
     counted to `rtol`; the first wear has the derivative `start` (1, parameters), known up to
     `start_error`.
 
-    The cycles of all segments are linearised at once.
+    The cycles of all segments are linearised at once; where many of them lie along a series of
+    increments, their derivatives are a series, too.
     """
     size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
     cycle = switched_period_map(*scene, size.finer_nodes, size.endpoint_tolerance)
-    starts = [_starts(segment.iterates) for segment in found.orbit.segments]
-    runs = _of_each(cycle, equation, starts)
+    runs = _of_each(cycle, equation, [segment.iterates for segment in found.orbit.segments])
     u, error = (values[None] for values in found.after(cycles[0]))
     derivative, derivative_error = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
@@ -73,7 +78,7 @@ def stage_tangents(
         if isinstance(iterates, Iterates):
             part = _one_by_one(iterates, run, wanted, now, now_error)
         elif isinstance(iterates, TabulatedIterates):
-            limit = _beside(equation, iterates)
+            limit = _beside(equation, iterates.coordinate)
             part = _tabulated(iterates, run, limit, wanted, now, now_error)
         elif iterates.at_rest[0]:
             limit = np.tile(_of_grazing(equation, found.last_wear), (len(wanted), 1))
@@ -92,7 +97,8 @@ def stage_tangents(
 
 class MapDerivatives(NamedTuple):
     """Cycles from some starts (k,): the `increment` (k,), mm, and `tangent` (k, 1 + parameters),
-    its derivatives with respect to the wear before the cycle, and to parameters.
+    its derivatives with respect to the wear before the cycle, and to parameters if that wear moves
+    with an `origin`, by its derivatives (k, parameters); and the `error` of the `tangent`.
 
     Near a limit wear that of the increment is small: from the derivative of the wear, one more, it
     would be lost to cancellation.
@@ -100,6 +106,81 @@ class MapDerivatives(NamedTuple):
 
     increment: FloatArray
     tangent: FloatArray
+    origin: FloatArray
+    error: FloatArray
+
+    def along(self, origin: FloatArray | float) -> tuple[FloatArray, FloatArray]:
+        """Return the derivatives (k, 1 + parameters) if the wear moves with another origin, by its
+        derivatives (parameters,), and their error."""
+        difference = origin - self.origin
+        tangent, error = self.tangent.copy(), self.error.copy()
+        tangent[:, 1:] += difference * tangent[:, :1]
+        error[:, 1:] += np.abs(difference) * error[:, :1]
+        return tangent, error
+
+
+class Response(NamedTuple):
+    """Relative derivatives of the increments along a `series` of them: with respect to the
+    logarithm of the distance to the origin of its coordinate, and to parameters at a fixed
+    distance. Chebyshev `coefficients` (p, m, 1 + parameters) on the panels of the series, and their
+    `misfit` (p, checks, 1 + parameters); and the derivatives (parameters,) of the `origin`."""
+
+    series: IncrementSeries
+    coefficients: FloatArray
+    misfit: FloatArray
+    origin: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        equation: ParametrisedEquation,
+        series: IncrementSeries,
+        wear: FloatArray,
+        run: MapDerivatives,
+    ) -> Response:
+        """Return the response along a series by the cycles from the wears `_sampled` of it."""
+        origin = _beside(equation, series.coordinate)
+        distance = _distance(series.coordinate, wear)
+        relative = run.along(origin)[0] / run.increment[:, None]
+        relative[:, 0] *= distance
+        relative = relative.reshape(len(series.level), -1, relative.shape[1])
+        nodes, checks = np.split(relative, [-len(CHECKS)], axis=1)
+        coefficients = chebyshev_analysis(nodes.shape[1]) @ nodes
+        misfit = np.abs(chebyshev_values(CHECKS, nodes.shape[1]) @ coefficients - checks)
+        return cls(series, coefficients, misfit, origin)
+
+    def map_derivatives(self, wear: FloatArray) -> MapDerivatives:
+        """Return the derivatives of the cycles from each wear (k,), mm."""
+        of, z = np.zeros(len(wear), dtype=int), self.series.coordinate.at(wear)
+        panel, t, _ = located([self.series], of, z)
+        basis = chebyshev_values(t, self.coefficients.shape[1])[:, None]
+        increment = increments([self.series], of, z)
+        each = increment[:, None] * np.ones(1 + len(self.origin))
+        each[:, 0] /= _distance(self.series.coordinate, wear)
+        tangent = each * (basis @ self.coefficients[panel])[:, 0]
+        error = np.abs(each) * near_checks(self.misfit[panel], t[:, None])[:, 0]
+        origin = np.tile(self.origin, (len(wear), 1))
+        return MapDerivatives(increment, tangent, origin, error)
+
+
+def _distance(coordinate: Coordinate, wear: FloatArray) -> FloatArray:
+    """Return how far (mm) each wear is beyond the origin of a coordinate, and its shift."""
+    return np.asarray(wear - coordinate.origin + coordinate.shift)
+
+
+def _sampled(series: IncrementSeries) -> FloatArray:
+    """Return the wears (mm) at which the response along a series is sampled: as many nodes of each
+    panel as the derivative of the series needs, and the CHECKS, no nearer to a limit wear than
+    rounding permits. There are none if the series is too short for its derivative."""
+    order = np.arange(series.series.shape[1])
+    needed = np.flatnonzero((np.abs(series.series) * order > NEGLIGIBLE).any(axis=0))
+    number = int(needed.max(initial=0)) + MORE
+    if number > len(order):
+        return np.empty(0)
+    t, domain = np.append(chebyshev_nodes(number), CHECKS), series.domain
+    wear = domain.wear(series.frame.states(t)).ravel()
+    nearest = RESOLVABLE * domain.uncertainty
+    return np.minimum(wear, domain.coordinate.origin - nearest) if domain.tends else wear
 
 
 class _StageTangents(NamedTuple):
@@ -154,9 +235,10 @@ def _one_by_one(
 ) -> _StageTangents:
     """Return the derivatives after some of the single cycles (n,)."""
     values, errors = [start], [start_error]
-    tangents, beside = np.split(run.tangent, [iterates.integrated_cycles])
-    difference, rough = np.zeros_like(tangents), _rough(iterates)
-    difference[rough] = np.abs(tangents[rough] - beside)
+    derivatives, derivatives_error = run.along(0.0)
+    tangents, beside = np.split(derivatives, [iterates.integrated_cycles])
+    difference, rough = derivatives_error[: len(tangents)], _rough(iterates)
+    difference[rough] += np.abs(tangents[rough] - beside)
     for tangent, local_error in zip(tangents, difference, strict=True):
         multiplier, by_parameters = 1.0 + tangent[0], tangent[1:]
         by_start = multiplier * values[-1]
@@ -184,9 +266,9 @@ def _tabulated(
     wear: that is smooth in the distance. At a limit wear the last cycles hardly change it.
     """
     count, z = iterates.in_z, iterates.coordinate
-    increment, to_sums = _added(iterates, run, limit)
+    added = _added(iterates, run, limit)
     nodes, checks = (
-        SumIncrements(increment[:, some], to_sums[:, some])
+        abel.SumIncrements(*(x[:, some] for x in added))
         for some in (slice(None, -len(CHECKS)), slice(-len(CHECKS), None))
     )
     into_z = 1.0 / z.rate(iterates.table.u[:1], np.ones(1))
@@ -202,25 +284,24 @@ def _tabulated(
     return _StageTangents(derivative, error, pace[:, 0] * rate)
 
 
-def _added(iterates: TabulatedIterates, run: MapDerivatives, limit: FloatArray) -> SumIncrements:
-    """Return the increments of z, and of the sum of (dn/dz) (dz/dp - its value for du/dp =
-    `limit`), for cycles from the nodes and the CHECKS of each panel; `limit` is (parameters,)."""
+def _added(
+    iterates: TabulatedIterates, run: MapDerivatives, limit: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the increments of z, and of dz/dp - its value for du/dp = `limit`, for cycles from the
+    nodes and the CHECKS of each panel, with the error of the latter; `limit` is (parameters,)."""
     panels, coordinate, t = iterates.panels, iterates.coordinate, _positions(iterates)
     z, at = panels.frame.states(t), _resolved(iterates, t)
     near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
-    increment = step(coordinate.ahead, at, run.increment.reshape(z.shape))
-    tangent = run.tangent.reshape(*z.shape, -1)
-    change = tangent[..., 1:] + limit * tangent[..., :1]
-    increment = np.where(near < 1.0, increment / near, increment)
-    density = abel.density_after(panels, t, increment)
-    into_z = near / coordinate.rate(z + increment, np.ones(1))
-    return SumIncrements(increment, (density * into_z)[..., None] * change)
+    increment = step(coordinate.ahead, at, run.increment.reshape(z.shape)) / near
+    into_z = (near / coordinate.rate(z + increment, np.ones(1)))[..., None]
+    change, error = (x[:, 1:].reshape(*z.shape, -1) for x in run.along(limit))
+    return increment, into_z * change, SAFETY * into_z * error
 
 
-def _beside(equation: ParametrisedEquation, iterates: TabulatedIterates) -> FloatArray:
-    """Return the derivatives (parameters,) of the grazing wear that is the origin of the table's
-    coordinate; zero if there is none."""
-    origin, _, shift = iterates.coordinate
+def _beside(equation: ParametrisedEquation, coordinate: Coordinate) -> FloatArray:
+    """Return the derivatives (parameters,) of the grazing wear that is the origin of a coordinate;
+    zero if there is none."""
+    origin, _, shift = coordinate
     found = _of_grazing(equation, origin) if shift == 0.0 else np.zeros(equation.parameters)
     return np.where(np.isfinite(found), found, 0.0)
 
@@ -236,17 +317,35 @@ def _of_grazing(equation: ParametrisedEquation, wear: float) -> FloatArray:
 
 
 def _of_each(
-    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: list[FloatArray]
+    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, segments: Sequence[AnyIterates]
 ) -> list[MapDerivatives]:
-    """Return the cycles from the starts (mm) of each segment, all of them at once."""
-    wear, few = np.concatenate(starts), AT_ONCE // len(cycle.rule.nodes)
-    runs = [
-        map_derivatives(cycle, equation, wear[at : at + few])
-        for at in range(0, max(len(wear), 1), few)
-    ]
-    ends = np.cumsum([len(each) for each in starts])[:-1]
-    arrays = (np.split(np.concatenate(parts), ends) for parts in zip(*runs, strict=True))
-    return [MapDerivatives(*each) for each in zip(*arrays, strict=True)]
+    """Return the derivatives of the cycles that each segment needs, all of them at once: by the
+    response along a series of increments where that takes fewer cycles."""
+    starts = [_starts(iterates) for iterates in segments]
+    wear = np.concatenate(starts)
+    alone = np.full(len(wear), True)
+    sampled: list[tuple[IncrementSeries, FloatArray, BoolArray]] = []
+    tables = [iterates for iterates in segments if isinstance(iterates, TabulatedIterates)]
+    for series in {id(table.series): table.series for table in tables}.values():
+        along = alone & (series.domain.start <= wear) & (wear < series.domain.end)
+        if np.count_nonzero(along) > len(own := _sampled(series)) > 0:
+            sampled.append((series, own, along))
+            alone &= ~along
+    parts = [wear[alone], *(own for _, own, _ in sampled)]
+    found = map_derivatives(cycle, equation, np.concatenate(parts))
+    first, *others = _split(found, parts)
+    runs, order = [first], [np.flatnonzero(alone)]
+    for (series, own, along), run in zip(sampled, others, strict=True):
+        runs.append(Response.of(equation, series, own, run).map_derivatives(wear[along]))
+        order.append(np.flatnonzero(along))
+    back = np.argsort(np.concatenate(order))
+    return _split(take(stacked(runs), back), starts)
+
+
+def _split(run: MapDerivatives, starts: Sequence[FloatArray]) -> list[MapDerivatives]:
+    """Return the cycles from each of several `starts`, which follow each other."""
+    ends = np.cumsum([0, *(len(each) for each in starts)]).tolist()
+    return [take(run, slice(*pair)) for pair in pairwise(ends)]
 
 
 def map_derivatives(
@@ -255,13 +354,17 @@ def map_derivatives(
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
     added, lasted = np.zeros((2, len(starts)))  # a cycle may begin in contact
-    for piece, run in cycle.pieces_from(starts, np.zeros(len(starts), dtype=int)):
-        _through(cycle, equation, run.parts, tangent, lasted)
-        added = added + run.added
-        if len(slid := run.slid):
-            slope, change = _margin(equation, (starts + added)[slid], piece.end[slid])
-            tangent[slid], lasted[slid] = -change / slope[:, None], piece.end[slid]
-    return MapDerivatives(added, tangent)
+    few = AT_ONCE // len(cycle.rule.nodes)
+    for at in range(0, len(starts), few):
+        some = slice(at, at + few)
+        own, wear, until = tangent[some], starts[some], lasted[some]
+        for piece, run in cycle.pieces_from(wear, np.zeros(len(wear), dtype=int)):
+            _through(cycle, equation, run.parts, own, until)
+            added[some] += run.added
+            if len(slid := run.slid):
+                slope, change = _margin(equation, (wear + added[some])[slid], piece.end[slid])
+                own[slid], until[slid] = -change / slope[:, None], piece.end[slid]
+    return MapDerivatives(added, tangent, np.zeros_like(tangent[:, 1:]), np.zeros_like(tangent))
 
 
 def _through(

@@ -195,37 +195,51 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
     return result
 
 
-def sum_per_cycle(panels: Panels, increments: FloatArray, added: FloatArray) -> FloatArray:
-    """Return the coefficients (panels, m, k) of dS/dn, where a cycle from the nodes of a panel adds
-    `added` (panels, m, k) to S: the sum of k functions over the orbit.
+class SumIncrements(NamedTuple):
+    """Cycles from some positions of panels: the increments of the state (panels, n), and of k
+    derivatives of it, `change` (panels, n, k), with their `error`."""
 
-    S(P(u)) = S(u) + added(u) is Abel's equation with another right-hand side; the integral of
+    increment: FloatArray
+    change: FloatArray
+    error: FloatArray | float = 0.0
+
+
+def sum_per_cycle(panels: Panels, cycles: SumIncrements) -> FloatArray:
+    """Return the coefficients (panels, m, k) of dS/dn, where the `cycles` from the nodes of a panel
+    add dn/du times their `change` to S, with dn/du at their ends.
+
+    S(P(u)) - S(u) is given: this is Abel's equation with another right-hand side; the integral of
     (dS/dn) (dn/du) over a cycle has the matrix of Newton's method for n.
     """
-    nodes, rule = chebyshev_nodes(added.shape[1]), gauss(ACROSS_A_FAST_CYCLE)
-    density, cycles, basis = _cycles_from(panels, nodes, increments, rule)
-    inverse = _inverse_slope(density, cycles, basis)
-    result: FloatArray = inverse @ (added / cycles[..., None])
+    rule, nodes = gauss(ACROSS_A_FAST_CYCLE), chebyshev_nodes(cycles.increment.shape[1])
+    slope, after = _sums_from(panels, nodes, cycles.increment, rule)
+    lost = ~np.isfinite(slope).all(axis=(1, 2))
+    slope[lost] = np.eye(slope.shape[1])
+    result = np.asarray(np.linalg.solve(slope, after * cycles.change), dtype=float)
+    result[lost] = np.nan
     return result
 
 
 def sum_residual(
-    panels: Panels, t: FloatArray, increments: FloatArray, series: FloatArray, added: FloatArray
+    panels: Panels, t: FloatArray, cycles: SumIncrements, series: FloatArray
 ) -> FloatArray:
-    """Return S(P(u)) - S(u) - added at the positions `t` (n,) of each panel, (panels, n, k), for
-    S with the coefficients `series` (panels, m, k) of dS/dn."""
-    density, _, basis = _cycles_from(panels, t, increments, gauss(ACROSS_JUDGED))
-    weighted = np.einsum("pig,pmig->pim", density, basis)
-    result: FloatArray = weighted @ series - added
+    """Return the error (panels, n, k) of S(P(u)) - S(u) for the `cycles` from the positions `t`
+    (n,) of each panel, for S with the coefficients `series` (panels, m, k) of dS/dn."""
+    slope, after = _sums_from(panels, t, cycles.increment, gauss(ACROSS_JUDGED))
+    result: FloatArray = np.abs(slope @ series - after * cycles.change) + after * cycles.error
     return result
 
 
-def density_after(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArray:
-    """Return dn/du (panels, k) a cycle after the positions `t` (k,) of each panel."""
-    basis = _within(t, panels.frame.step(t, increments, WHOLE), panels.series.shape[1])
-    level, shape = level_and_shape(panels.series)
-    density, _ = _density(shape, basis, np.broadcast_to(level[..., None], basis[:, 0].shape))
-    return density[..., 0]
+def _sums_from(
+    panels: Panels, t: FloatArray, increments: FloatArray, rule: Gauss
+) -> tuple[FloatArray, FloatArray]:
+    """Return the matrices (panels, n, m) from coefficients of dS/dn to the increments of S in
+    cycles from the positions `t` (n,), by the nodes of a rule, and dn/du (panels, n, 1) at their
+    ends."""
+    to_end = rule._replace(nodes=np.append(rule.nodes, 1.0), weights=np.append(rule.weights, 1.0))
+    density, _, basis = _cycles_from(panels, t, increments, to_end)
+    slope = np.einsum("pig,pkig->pik", density[..., :-1], basis[..., :-1])
+    return slope, density[..., -1:] / increments[..., None]
 
 
 def _cycles_from(

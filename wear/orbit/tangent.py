@@ -242,18 +242,10 @@ def _on_panels(
     return sums_on_cells(iterates, nodes, checks, start, start_error)
 
 
-class SumIncrements(NamedTuple):
-    """Cycles from some positions of panels: their increments of the state (panels, n), and those of
-    S, `to_sums` (panels, n, parameters)."""
-
-    increment: FloatArray
-    to_sums: FloatArray
-
-
 def sums_on_cells(
     iterates: Iterates,
-    nodes: SumIncrements,
-    checks: SumIncrements,
+    nodes: abel.SumIncrements,
+    checks: abel.SumIncrements,
     start: FloatArray,
     start_error: FloatArray,
 ) -> Sums:
@@ -262,8 +254,8 @@ def sums_on_cells(
     panels, table = iterates.panels, iterates.cells
     assert panels is not None
     assert table is not None
-    series = abel.sum_per_cycle(panels, *nodes)
-    residual = abel.sum_residual(panels, CHECKS, checks.increment, series, checks.to_sums)
+    series = abel.sum_per_cycle(panels, nodes)
+    residual = abel.sum_residual(panels, CHECKS, checks, series)
 
     density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
     density = density * gauss(NODES).weights
@@ -271,7 +263,7 @@ def sums_on_cells(
     size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
     panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
     frame, ends = take(panels.frame, panel), np.column_stack([table.u, table.ends])
-    worst = near_checks(np.abs(residual)[panel], frame.positions(ends)).max(axis=1)
+    worst = near_checks(residual[panel], frame.positions(ends)).max(axis=1)
     of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
     lost = SAFETY * (worst * table.gain[:, None] + of_count * size_of)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
@@ -281,11 +273,12 @@ def sums_on_cells(
     return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
-def _added(maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles) -> SumIncrements:
+def _added(
+    maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles
+) -> abel.SumIncrements:
     """Return the increments of the cycles `run` from the positions `t` (n,) of each panel."""
-    by_parameters = map_derivatives(maps, panels.frame.states(t), run).by_parameters
-    density = abel.density_after(panels, t, run.increment)
-    return SumIncrements(run.increment, density[..., None] * by_parameters)
+    derivatives = map_derivatives(maps, panels.frame.states(t), run)
+    return abel.SumIncrements(run.increment, derivatives.by_parameters)
 
 
 def _at_cells(
