@@ -4,7 +4,7 @@
 >>> derive.equation("21").status.value
 'derived'
 
-SymPy is imported when something is first asked for, not with the package.
+SymPy is imported at the first use of one of these names, not with the package.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 
 __all__ = ["all_equations", "equation", "verify"]
 
-_HOMES = {"all_equations": "catalogue", "equation": "catalogue", "verify": "verification"}
+_MODULES = {"all_equations": "catalogue", "equation": "catalogue", "verify": "verification"}
 
 
 def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    if name in _MODULES:
+        return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

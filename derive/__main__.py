@@ -1,4 +1,4 @@
-"""Starts the command `derive`. Ctrl-C is silent from its first import on."""
+"""Start the command `derive`. Ctrl-C is silent from the first import on."""
 
 import sys
 
@@ -10,7 +10,7 @@ def main() -> int:
 
         return cli.main()
     except KeyboardInterrupt:
-        return 130  # as `derive.terminal` has it, which may not be imported yet
+        return 130  # `derive.terminal.INTERRUPTED`, which may not be imported yet
 
 
 if __name__ == "__main__":

@@ -4,11 +4,11 @@ Overview
     Let ds/dtau = rho (1 + p_1(tau)/s + p_2(tau)/s^2 + ...) with periodic p_n and large s.  Then
     s = m + w_1(tau)/m + w_2(tau)/m^2 + ... with periodic w_n of zero mean, and m grows without
     oscillation: dm/dtau = rho (1 + c_1/m + c_2/m^2 + ...).  Inserting and comparing powers of
-    1/m gives at each order one linear equation, c_n + (dw_n/dtau)/rho = known: its mean is c_n,
-    the rest integrates to w_n.  What is periodic is a polynomial in z = exp(2 pi i tau) and 1/z,
-    of which the mean is the coefficient of z^0: no integral has to be found.
+    1/m gives at each order one linear equation, c_n + (dw_n/dtau)/rho = known terms: their mean
+    is c_n, the rest integrates to w_n.  A periodic expression is a polynomial in
+    z = exp(2 pi i tau) and 1/z, and its mean is the coefficient of z^0: no integral is needed.
 Key results
-    collected    what is known at an order
+    collected    the known terms at an order
     turning      a periodic expression in tau as a polynomial in z and 1/z
     mean         its mean over a cycle
 References
@@ -33,7 +33,7 @@ def collected(
     ``terms[0]`` and ``drift[0]`` are 1, ``waves[0]`` is 0.
     """
     powers = (term * _power(waves[:n], -k, n - k) for k, term in enumerate(terms[: n + 1]))
-    # of d(w_k/m^k)/dtau the slow part is -k w_k (dm/dtau)/m^(k + 1)
+    # the slow part of d(w_k/m^k)/dtau is -k w_k (dm/dtau)/m^(k + 1)
     slow = (k * waves[k] * drift[n - k - 1] for k in range(1, n))
     return sp.Add(*powers, *slow)
 

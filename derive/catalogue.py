@@ -48,7 +48,7 @@ _MODULES = {identifier: module for module, ids in _BEYOND.items() for identifier
 
 
 class UnknownEquationError(KeyError):
-    """There is no equation of that id; the message says which are near."""
+    """There is no equation of that id; the message suggests similar ids."""
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -63,7 +63,7 @@ def all_equations() -> tuple[Equation, ...]:
 def _of_the_note() -> dict[str, Equation]:
     model = condensed.two_solids()
     proved = governing.results(model) | condensed.results(model) | dict(stabilised.EQUATIONS)
-    return {found.id: found for found in sorted(numbered(proved), key=_place)}
+    return {entry.id: entry for entry in sorted(numbered(proved), key=_place)}
 
 
 @cache
@@ -72,9 +72,9 @@ def _beyond(identifier: str) -> Equation:
     return numbered({identifier: getattr(module, identifier.replace("-", "_"))})[0]
 
 
-def _place(found: Equation) -> tuple[int, str]:
-    number = re.match(r"\d+", found.id)
-    return (int(number.group()) if number else 10**6, found.id)
+def _place(entry: Equation) -> tuple[int, str]:
+    number = re.match(r"\d+", entry.id)
+    return (int(number.group()) if number else 10**6, entry.id)
 
 
 def equations_up_to(identifier: str) -> tuple[Equation, ...]:

@@ -16,39 +16,39 @@ from .rules.assumption import Assume
 
 
 class Check(NamedTuple):
-    """What was checked (``kind``), whether it holds, and how that was found out."""
+    """The outcome of one check: its kind, whether it passed, and the evidence or the fault."""
 
     kind: str
     passed: bool
     detail: str
 
 
-def checks(judgement: Judgement) -> tuple[Check, ...]:
-    """Return what comes of checking one step; its parents are steps of their own."""
+def step_checks(judgement: Judgement) -> tuple[Check, ...]:
+    """Check one step without models; its parents are steps of their own."""
     fault, refusal = homogeneous(judgement.relation), replayed(judgement)
-    found = [
+    results = [
         Check("dimensions", fault is None, fault or "both sides agree"),
         Check("proof", refusal is None, refusal or judgement.rule.source),
     ]
     if proved_by_coq(judgement):
-        found.append(Check("coq", True, "closed by Coq, as its record says"))
-    return tuple(found)
+        results.append(Check("coq", True, "closed by Coq, as its record says"))
+    return tuple(results)
 
 
-def on_models(judgement: Judgement) -> tuple[Check, ...]:
-    """Return what models say of a step that is no hypothesis: none may break it."""
+def model_checks(judgement: Judgement) -> tuple[Check, ...]:
+    """Try a step on models, none of which may break it; a hypothesis has no such check."""
     if isinstance(judgement.rule, Assume):
         return ()
     answer = tried(judgement)
     return (Check("falsifier", answer.passed, str(answer)),)
 
 
-def reasons_of(judgement: Judgement) -> tuple[Check, ...]:
-    """Return what models say of a judgement without each of its conditions in turn."""
-    asked = (h for h in judgement.conditions if not isinstance(h.relation, Predicate))
-    found = {h: without(judgement, h) for h in asked}
+def condition_checks(judgement: Judgement) -> tuple[Check, ...]:
+    """Drop each condition of a judgement in turn; report a model that then breaks the claim."""
+    relations = (h for h in judgement.conditions if not isinstance(h.relation, Predicate))
+    broken = {h: without(judgement, h) for h in relations}
     none = "no model shows that it is needed"
     return tuple(
-        Check("hypothesis", True, f"{h.typed}: {f'without it false for {why}' if why else none}")
-        for h, why in found.items()
+        Check("hypothesis", True, f"{h.typed}: {f'without it false for {by}' if by else none}")
+        for h, by in broken.items()
     )

@@ -1,12 +1,12 @@
-"""Command lines of several commands: what one is, and the parser of all of them.
+"""Programs with several commands: the form of a command, and the parser of the whole program.
 
 Overview
-    A command is a module that has its name.  Its docstring is its help: what it does, in a line,
-    and examples; ``add_arguments(parser)`` declares its arguments, but for `--json`, which all
+    A command is a module of the same name.  Its docstring is its help: a summary in one line,
+    and examples; ``add_arguments(parser)`` declares its arguments, except `--json`, which all
     have; ``execute(options)`` does the work and returns an ``Answer``.
 Key results
-    Answer     what a command has to say
-    Parser     gathers the faults of arguments
+    Answer     the result of a command
+    Parser     collects the faults of arguments
     declare    an argument, as its usage shows it
     parser     the parser of a program with commands
     main       parse and execute
@@ -31,21 +31,21 @@ Options = argparse.Namespace
 """The values of the arguments of a command, by their names."""
 
 OF_THE_REPORT = ("matplotlib", "math_core", "markdown_it")
-"""What only figures and reports need: the extra `report`."""
+"""Packages that only figures and reports import: the extra `report`."""
 
 
 @dataclass(frozen=True)
 class Answer:
-    """What a command has to say.
+    """The result of a command.
 
     Attributes
     ----------
     document
-        What `--json` prints.
+        The document that `--json` prints.
     text
         Returns the same for a reader, empty if there is nothing to print.
     notices
-        What else is worth knowing, or went wrong; printed to standard error.
+        Remarks and warnings, printed to standard error.
     status
         The exit status.
     """
@@ -57,13 +57,15 @@ class Answer:
 
 
 def name_of(command: ModuleType) -> str:
-    """Return what a command is called."""
+    """Return the name of a command."""
     return command.__name__.rpartition(".")[2].rstrip("_")
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that gathers what the types of its arguments refuse, into `options.faults`: the
-    command reports them with all others."""
+    """A parser that collects arguments of a wrong type in `options.faults`.
+
+    The command reports them with all other faults.
+    """
 
     def __init__(self, **about: Any) -> None:
         super().__init__(**about)
@@ -88,8 +90,8 @@ def declare(
 ) -> None:
     """Declare an argument as its usage shows it: `--strict`, `-o, --output FILE`, `[ID ...]`.
 
-    An option without a value is a flag. Brackets and dots say how many values there are, braces
-    which; `words` are offered for completion. The rest is for `argparse`.
+    An option without a value is a flag. Brackets and dots give the number of values, braces the
+    choices; `words` are offered for completion. Other keywords go to `argparse`.
     """
     flags = re.findall(r"(?:^|, )(-[\w-]+)", usage)
     value = usage[len(", ".join(flags)) :].strip()
@@ -110,8 +112,8 @@ def declare(
 
 
 def parser(program: str, description: str, examples: str, names: str) -> Parser:
-    """Return the parser of a whole command line, of the commands with these `names` in the modules
-    of `program.commands`."""
+    """Return the parser of a program; `names` are the modules of its commands, in
+    `program.commands`."""
     whole = Parser(
         prog=program,
         description=description,
@@ -146,7 +148,7 @@ def main(
 ) -> int:
     """Execute the command that the arguments name; return the exit status.
 
-    SymPy remembers more results than the 1000 it would by itself, which a derivation exceeds.
+    SymPy's cache gets 20000 entries: a derivation exceeds the default of 1000.
     """
     os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
     words = sys.argv[1:] if arguments is None else list(arguments)
@@ -174,29 +176,28 @@ def main(
 
 
 def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
-    """Parse; what is mistyped is met with what was meant, by the parser of the command."""
+    """Parse the words; suggest a correction for a mistyped one, in the usage of its command."""
     branches = completion.commands(whole)
     if not words:
         whole.print_help(sys.stderr)
         whole.exit(terminal.USAGE)
     known = [*branches, *_options(whole)]
     if words[0] not in known:
-        hint = _meant(words[0], known) or f"; `{whole.prog} --help` lists what there is"
+        hint = _suggestion(words[0], known) or f"; `{whole.prog} --help` lists the commands"
         whole.error(f"{words[0]}: there is no such command{hint}")
-    options, left = whole.parse_known_args(words)
-    if left:
-        branch = branches[name_of(options.command)]
-        wrong = [word for word in left if word.startswith("-")] or left
-        hints = (f"{word}: not understood{_meant(word, _options(branch))}" for word in wrong)
-        branch.error("\n".join(hints))
+    options, unknown = whole.parse_known_args(words)
     branch = branches[name_of(options.command)]
+    if unknown:
+        wrong = [word for word in unknown if word.startswith("-")] or unknown
+        hints = (f"{word}: not understood{_suggestion(word, _options(branch))}" for word in wrong)
+        branch.error("\n".join(hints))
     if twice := [name for action in branch._actions if (name := _repeated(action, words))]:
         branch.error("\n".join(f"{name}: given more than once; keep one" for name in twice))
     return options
 
 
 def _repeated(action: argparse.Action, words: Sequence[str]) -> str:
-    """Return the name of an option of one value if it stands several times among the words."""
+    """Return the name of an option of one value if the words contain it several times."""
     given = [word for word in words if word.partition("=")[0] in action.option_strings]
     return given[-1] if type(action) is argparse._StoreAction and len(given) > 1 else ""
 
@@ -205,9 +206,9 @@ def _options(parser: argparse.ArgumentParser) -> list[str]:
     return [option for action in parser._actions for option in action.option_strings]
 
 
-def _meant(word: str, known: Iterable[str]) -> str:
+def _suggestion(word: str, known: Iterable[str]) -> str:
     """
-    >>> _meant("--cylces", ["--cycles", "--json"])
+    >>> _suggestion("--cylces", ["--cycles", "--json"])
     '; did you mean --cycles?'
     """
     near = difflib.get_close_matches(word, known, n=1)

@@ -10,7 +10,7 @@ import argparse
 from collections.abc import Callable, Iterator, Sequence
 
 _FILES = ("FILE", "DIR", "SCENE")
-"""Metavars of arguments that are paths, or may be."""
+"""Metavars of arguments that may be paths."""
 
 _TEMPLATE = """\
 _{name}_complete() {{
@@ -49,7 +49,7 @@ def bash(parser: argparse.ArgumentParser) -> str:
 
 
 def _cases(name: str, parser: argparse.ArgumentParser) -> Iterator[str]:
-    """What comes after each option that has a value, then everything else."""
+    """Yield the completions after each option with a value, then those of all other places."""
     for action in parser._actions:
         if action.nargs != 0:
             for option in action.option_strings:
@@ -65,7 +65,8 @@ def _values(actions: Sequence[argparse.Action]) -> dict[str, str]:
 
 
 def suggest(action: argparse.Action, words: Callable[[], Sequence[str]]) -> None:
-    """Have words offered for an argument that takes others too; asked for only when printed."""
+    """Offer words for an argument that takes others too; `words` is called when a script is
+    printed."""
     action.suggestions = words  # type: ignore[attr-defined]
 
 

@@ -2,7 +2,7 @@
 
 Key results
     dimension(expr)     the exponents of (mm, s, MPa), or DimensionError
-    homogeneous(claim)  None, or what is wrong with a relation
+    homogeneous(claim)  None, or the fault of a relation
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ def dimension(expr: sp.Expr) -> Dimension | None:
     if isinstance(expr, AppliedUndef) and expr.func.__name__ in QUANTITIES:
         quantity = QUANTITIES[expr.func.__name__]
         if dimension(expr.args[0]) not in (None, parse_unit(QUANTITIES[quantity.clock].unit)):
-            raise DimensionError(f"{expr} is at no time")
+            raise DimensionError(f"{expr}: its argument is no time")
         return parse_unit(quantity.unit)
     if isinstance(expr, Term):
         _, law, roughness, _, growth = expr.args
-        dimension(law.xreplace({roughness: growth}))  # of one dimension, in a period of 1
+        dimension(law.xreplace({roughness: growth}))  # must be homogeneous; the period is 1
         return _combine(NONE, dimension(growth), Fraction(expr.power))
     if isinstance(expr, sp.Derivative):
         result = dimension(expr.expr)
@@ -114,7 +114,7 @@ def _check_condition(condition: sp.Basic) -> None:
 
 
 def homogeneous(claim: sp.Basic) -> str | None:
-    """Return None when every relation in ``claim`` is dimensionally sound, else the fault."""
+    """Return None if every relation in ``claim`` is dimensionally homogeneous, else the fault."""
     try:
         _check_condition(claim)
     except DimensionError as fault:

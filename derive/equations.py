@@ -1,13 +1,13 @@
 """Equations: the statements a reader knows by number, with their printed and typeset forms.
 
 Overview
-    What is proved is in ``note`` and ``results``; ``equations.toml`` has the rest by id: section,
+    ``note`` and ``results`` have the proofs; ``equations.toml`` has the texts by id: section,
     title and remark, the form that the note prints, the form that an author lays out with its
-    abbreviations.  A check compares the forms with what is derived.
+    abbreviations.  A check compares both forms with the derived claims.
 Key results
-    Equation    one of them
+    Equation    statements, their texts and status
     numbered    the equations of results by id
-    written     the formulas of one, as they are written
+    written     the formulas of one, as an author writes them
     Status      definition, derived, derived-numerically, corrected, refuted
 """
 
@@ -53,11 +53,11 @@ EXPANSION = (
 """What the coefficients of the expansion for long times are those of, in LaTeX."""
 
 Proved = Judgement | tuple[Judgement, ...]
-"""What an equation states: a judgement, or those of a system."""
+"""The proof of an equation: a judgement, or those of a system."""
 
 
 def written(form: str, texts: Mapping[str, str], known: Names = _NONE) -> tuple[sp.Basic, ...]:
-    """Return the formulas of a form (``printed``, ``shown``, ``where``) as they are written.
+    """Return the formulas of a form (``printed``, ``shown``, ``where``), unevaluated.
 
     ``known`` are names beyond the vocabulary.
 
@@ -72,16 +72,16 @@ def written(form: str, texts: Mapping[str, str], known: Names = _NONE) -> tuple[
 
 
 def stated(identifier: str, known: Names = _NONE) -> tuple[sp.Basic, ...]:
-    """Return what an equation says as it is shown, evaluated and without abbreviations.
+    """Return the shown relations of an equation, evaluated and without abbreviations.
 
-    So the claim of a rule need not be typed a second time.
+    They serve as the claim of a rule, which is thus typed once.
     """
     shown, where = (written(form, TEXTS[identifier], known) for form in ("shown", "where"))
     return tuple(_in_full(evaluated(relation), where) for relation in shown)
 
 
 class Status(StrEnum):
-    """What the machine says of an equation as printed."""
+    """The machine's verdict on an equation as printed."""
 
     DEFINITION = "definition"
     DERIVED = "derived"
@@ -94,10 +94,10 @@ class Status(StrEnum):
 class Equation:
     """An equation of the note, or a result beyond it.
 
-    A system is a tuple of statements.  ``texts`` are its formulas: ``printed`` is the note's form,
+    A system has several statements.  ``texts`` are its formulas: ``printed`` is the note's form,
     transcribed apart from the derivation and only compared with it; ``shown`` the derived form laid
-    out by an author, where it differs from the printed one; ``where`` the abbreviations in it,
-    each a relation with the new name on its left.
+    out by an author, where it differs from the printed one; ``where`` its abbreviations, each a
+    relation with the new name on its left.
     """
 
     id: str
@@ -115,7 +115,7 @@ class Equation:
         return f"<Equation {self.id}: {self.title}>"
 
     def _repr_latex_(self) -> str:
-        """Return what a notebook shows."""
+        """Return the formula that a notebook shows."""
         return f"$\\displaystyle {self.latex}$"
 
     @property
@@ -130,26 +130,26 @@ class Equation:
 
     @cached_property
     def printed(self) -> tuple[sp.Basic, ...]:
-        """Return the form of the note; empty for results that it does not have."""
+        """Return the form of the note; empty for results beyond it."""
         return self._written("printed")
 
     @cached_property
     def where(self) -> tuple[sp.Basic, ...]:
-        """Return the abbreviations in what is typeset."""
+        """Return the abbreviations in the typeset form."""
         return self._written("where")
 
     @cached_property
     def shown(self) -> tuple[sp.Basic, ...]:
-        """Return what is typeset: an author's form, the printed one if it holds, the claims."""
-        if found := self._written("shown"):
-            return found
+        """Return the typeset form: an author's, else the printed if it holds, else the claims."""
+        if laid_out := self._written("shown"):
+            return laid_out
         if self.printed and self.agrees:
             return self.printed
         return tuple(presentable(claim) for claim in self.claims)
 
     def _written(self, form: str) -> tuple[sp.Basic, ...]:
-        own = {name: by for claim in self.claims for name, by in names(claim)}
-        known = {name: by for name, by in own.items() if name not in QUANTITIES}
+        bearers = {name: by for claim in self.claims for name, by in names(claim)}
+        known = {name: by for name, by in bearers.items() if name not in QUANTITIES}
         return written(form, self.texts, known)
 
     @property
@@ -159,18 +159,18 @@ class Equation:
 
     @property
     def printed_latex(self) -> str:
-        """Return the note's own form in LaTeX; empty for results that it does not have."""
+        """Return the note's own form in LaTeX; empty for results beyond it."""
         return latex(self.printed) if self.printed else ""
 
     @property
     def definitions_latex(self) -> tuple[str, ...]:
-        """Return what its names mean in LaTeX, a formula each; coefficients of the expansion for
-        long times by that expansion."""
-        found: list[str] = []
+        """Return the definitions of its names in LaTeX, a formula each; for coefficients of the
+        long-time expansion that expansion."""
+        formulas: list[str] = []
         for relation in (h.relation for h in self.definitions):
             is_term = isinstance(getattr(relation, "rhs", None), Term)
-            found += EXPANSION if is_term else [latex(presentable(relation))]
-        return tuple(dict.fromkeys(found))
+            formulas += EXPANSION if is_term else [latex(presentable(relation))]
+        return tuple(dict.fromkeys(formulas))
 
     @property
     def steps(self) -> tuple[Judgement, ...]:
@@ -179,9 +179,11 @@ class Equation:
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
-        """Return what a reader needs to know beside the equation of when it holds, in its names:
-        no more than the name of a setting that it states itself."""
-        defined = (h.relation for h in self._named if isinstance(h.relation, sp.Equality))
+        """Return the conditions that a reader needs beside the equation, in its own names.
+
+        A setting that the equation itself states is there by name alone.
+        """
+        defined = (h.relation for h in self._naming if isinstance(h.relation, sp.Equality))
         names = [relation for relation in defined if relation.lhs in self.relation.free_symbols]
         beside = [h for h in self.hypotheses if h.is_setting or h.relation not in self.claims]
         shown = (h.relation for h in beside if h.shown)
@@ -189,51 +191,52 @@ class Equation:
 
     @property
     def _signs(self) -> tuple[Hypothesis, ...]:
-        """Return the signs of names that the vocabulary does not have, nor a definition."""
-        told = QUANTITIES.keys() | {n for h in self._named for n in defined_by(h.relation)}
-        own = sorted((s for s in self.relation.free_symbols if s.name not in told), key=str)
-        return tuple(Hypothesis(sign) for sign in map(domain, own) if sign is not None)
+        """Return the signs of names that neither the vocabulary nor a definition has."""
+        known = QUANTITIES.keys() | {n for h in self._naming for n in defined_by(h.relation)}
+        others = sorted((s for s in self.relation.free_symbols if s.name not in known), key=str)
+        return tuple(Hypothesis(sign) for sign in map(domain, others) if sign is not None)
 
     @cached_property
     def definitions(self) -> tuple[Hypothesis, ...]:
-        """Return what the names mean that the equation and its conditions have: each definition
-        on which it rests, but those that it states itself."""
-        said = [self.relation, *(h.relation for h in self.hypotheses if h.shown)]
-        rest, found = self._named, list[Hypothesis]()
-        while new := [h for h in rest if defined_by(h.relation) & _names(said)]:
+        """Return the definitions of names in the equation and its conditions, and of names in
+        these definitions, except those that the equation itself states."""
+        relations = [self.relation, *(h.relation for h in self.hypotheses if h.shown)]
+        rest, result = self._naming, list[Hypothesis]()
+        while new := [h for h in rest if defined_by(h.relation) & _names(relations)]:
             rest = [h for h in rest if h not in new]
-            found += new
-            said = [h.relation for h in new]
-        return tuple(h for h in found if h.relation not in self.claims)
+            result += new
+            relations = [h.relation for h in new]
+        return tuple(h for h in result if h.relation not in self.claims)
 
     @property
-    def _named(self) -> list[Hypothesis]:
+    def _naming(self) -> list[Hypothesis]:
+        """Return the hypotheses that define a name."""
         return [h for h in self.hypotheses if h.kind is Kind.DEFINITION]
 
     @property
     def hypotheses(self) -> tuple[Hypothesis, ...]:
-        """Return all that the equation rests on, each once."""
+        """Return the hypotheses of all statements, each once."""
         return tuple(dict.fromkeys(h for s in self.statements for h in s.hypotheses))
 
     @cached_property
     def agrees(self) -> bool:
-        """Return whether the printed form, if there is one, is what was derived."""
+        """Return whether the printed form, if there is one, equals the claims."""
         return not self.printed or _agree(self.printed, self.claims)
 
     @cached_property
     def typeset_agrees(self) -> bool:
-        """Return whether what is typeset is what was derived; an abbreviation is no datum."""
+        """Return whether the typeset form equals the claims and abbreviates by no name of data."""
         short = {name for abbreviation in self.where for name, _ in names(abbreviation.lhs)}
         return short.isdisjoint(DATA) and _agree(self.shown_in_full, self.claims)
 
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
-        """Return what is typeset, without abbreviations."""
+        """Return the typeset form without abbreviations."""
         return tuple(_in_full(part, self.where) for part in self.shown)
 
     @property
     def status(self) -> Status:
-        """Return what the machine says of the equation as printed."""
+        """Return the machine's verdict on the equation as printed."""
         if not self.agrees:
             return Status.CORRECTED
         if all(isinstance(s.rule, Assume) for s in self.statements):
@@ -242,7 +245,7 @@ class Equation:
 
 
 def numbered(results: Mapping[str, Proved]) -> tuple[Equation, ...]:
-    """Return the equations that state results, which are given by id."""
+    """Return the equations that state these results, given by id."""
     return tuple(
         Equation(
             identifier,
@@ -285,7 +288,7 @@ def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
 
 
 def abbreviated(relation: sp.Basic, names: Iterable[sp.Equality]) -> sp.Basic:
-    """Return a relation with names for the expressions that they stand for."""
+    """Return a relation with names in place of the expressions that they abbreviate."""
     short = {evaluated(name.rhs): name.lhs for name in names if name.rhs.args}
     if not any(relation.has(value) for value in short):
         return relation
@@ -293,5 +296,5 @@ def abbreviated(relation: sp.Basic, names: Iterable[sp.Equality]) -> sp.Basic:
 
 
 def system(claims: tuple[sp.Basic, ...]) -> sp.Basic:
-    """Return one relation, or the conjunction of several as they stand."""
+    """Return one relation, or the unevaluated conjunction of several."""
     return claims[0] if len(claims) == 1 else sp.And(*claims, evaluate=False)

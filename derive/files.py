@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all.
+"""Atomic writing of files.
 
 A file is written beside its place under a temporary name and then renamed, so that neither a full
 disk, nor an exception, nor an interrupt leaves half of it behind or destroys the one before.
@@ -19,13 +19,13 @@ from pathlib import Path
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give a path to write to; it takes the place of `path` when the block ends without an error.
 
-    The given path has the suffix of `path`, so that writers which go by it behave. A device or
+    The given path has the suffix of `path`, for writers that choose the format by it. A device or
     pipe (`/dev/stdout`) is not replaced but written to.
 
     Raises
     ------
     OSError
-        with `path` as its `filename`, whatever name was written to.
+        with `path` as its `filename`, not the temporary name.
     """
     target = Path(path)
     try:
@@ -66,7 +66,7 @@ def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None
 
 @contextmanager
 def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give an empty directory; what is in it moves to `folder` when the block ends without error.
+    """Give an empty directory; its files move to `folder` when the block ends without error.
 
     `folder` is made if need be. Files of the same names are replaced, one by one, others stay.
     """
@@ -75,7 +75,7 @@ def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
         made = not target.exists()
         target.mkdir(parents=True, exist_ok=True)
         try:
-            # inside the target: surely on the same file system, where a rename is atomic
+            # inside the target, thus on the same file system, where a rename is atomic
             with tempfile.TemporaryDirectory(prefix=".draft-", dir=target) as name:
                 draft = Path(name)
                 yield draft
@@ -99,9 +99,9 @@ def write_all(folder: str | os.PathLike[str], contents: Mapping[str, str | bytes
 
 
 def obstacle(path: str | os.PathLike[str]) -> str | None:
-    """Return why a file cannot be written there, None if nothing is known to forbid it.
+    """Return why a file cannot be written there, None if no obstacle is known.
 
-    To be asked before a long computation, not instead of handling what then goes wrong.
+    For use before a long computation; the write may still fail and must be handled.
 
     >>> obstacle("no such folder/wear.csv")
     'no such folder: no such folder; make it first'
@@ -139,5 +139,5 @@ def _flush_to_disk(file: Path) -> None:
 
 
 def _named(fault: OSError, path: Path) -> OSError:
-    """Return the same fault, told about the path that the user gave."""
+    """Return the same fault with the path that the user gave."""
     return OSError(fault.errno or 5, fault.strerror or str(fault) or "cannot be written", str(path))

@@ -1,9 +1,9 @@
-"""Writing the generated modules of wear, and whether they are up to date.
+"""The generated modules of wear: writing them, and finding those that are out of date.
 
 Key results
     sources     every generated file, as text
-    write       write what differs
-    outdated    the files that differ from what would be written
+    write       bring the files up to date
+    outdated    the files that are not
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def sources() -> Mapping[str, str]:
 
 
 def outdated(folder: Path) -> tuple[str, ...]:
-    """Return the files under ``folder`` that are missing, differ, or should not be there."""
+    """Return the files under ``folder`` that are missing, different or superfluous."""
     wanted = sources()
     differing = [
         name
@@ -64,7 +64,7 @@ def outdated(folder: Path) -> tuple[str, ...]:
 
 
 def write(folder: Path) -> tuple[str, ...]:
-    """Bring ``folder`` up to date; return what was written or removed."""
+    """Bring ``folder`` up to date; return the files that were written or removed."""
     changed = outdated(folder)
     wanted = sources()
     for name in changed:

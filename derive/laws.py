@@ -5,18 +5,18 @@ Overview
     condensed problem, its right-hand side, the asymptotic pressure, the LaTeX and the
     generated modules follow.
     In floating point a law may need another form.  The printed (1 + tanh x)/2 loses all relative
-    accuracy for x << 0: at x = -19 nothing is left of it.  It equals y/(1 + y) with the odds
+    accuracy for x << 0: at x = -19 it rounds to 0.  It equals y/(1 + y) with the odds
     y = exp(2x) = p/(p_max - p), which keeps full relative accuracy, and its slope is
     y/(1 + y)/(1 + y), in which nothing overflows.  exp overflows beyond 709.78.  Above 709 the odds
-    are held: y/(1 + y) is 1 to the last bit there, and the slope is below the smallest normal
-    double.  The quotient y/(1 + y)/(1 + y) has a name of its own: merged with other factors, 1 + y
-    times one of them could overflow.
+    are held constant: there y/(1 + y) is 1 to the last bit, and the slope is below the smallest
+    normal double.  The quotient y/(1 + y)/(1 + y) has its own name: if it were merged with other
+    factors, 1 + y times one of them could overflow.
 Key results
-    ContactLaw   phi, and how to compute it
+    ContactLaw   phi, and a form of it for floating point
     TANH         Eq. (4) of the note
     EXPONENTIAL  p_max exp(-h/sigma), the tail of a Greenwood-Williamson contact
     GENERAL      an unspecified positive, decreasing phi, for the general theorems
-    Stable       a form to compute with: intermediates, value and slope
+    StableForm   a form to compute with: intermediates, value and slope
     released     that form without the limits of floating point
 """
 
@@ -31,15 +31,15 @@ r = sp.Symbol("r", real=True)
 """Closure over equivalent roughness, h/sigma."""
 
 HELD = 709
-"""Argument beyond which the odds are held: the largest integer whose exponential is finite."""
+"""Argument beyond which the odds are constant: the largest integer with a finite exponential."""
 
 odds, share, spread = sp.symbols("odds share spread", positive=True)
 """p/(p_max - p); p/p_max; p (p_max - p)/p_max^2, to which the slope of tanh is proportional."""
 
 
 @dataclass(frozen=True)
-class Stable:
-    """How to compute phi(r) and its slope.
+class StableForm:
+    """A form of phi(r) and its slope that neither overflows nor loses digits.
 
     ``names`` are intermediates in order, each an expression in r and earlier ones, in exact
     form but for exponents held below HELD.  ``far_value`` and ``far_steepness`` are phi and
@@ -59,10 +59,9 @@ class ContactLaw:
     """A contact law ``p = p_max phi(r)`` with ``r = h/sigma``.
 
     phi must be positive, smooth and decreasing (phi' < 0), convex for ``r > inflection`` and
-    concave below it (``-oo``: convex everywhere); the pressure of a compliant support rests on
-    that.
-    ``cutoff`` is the ratio h/sigma beyond which the note's text has no contact.  A law without a
-    ``form`` is computed as it stands.
+    concave below it (``-oo``: convex everywhere); the root of the pressure on a compliant support
+    rests on that.  ``cutoff`` is the ratio h/sigma beyond which the note's text has no contact.  A
+    law without a ``form`` is computed by phi and its derivative.
     """
 
     name: str
@@ -70,20 +69,20 @@ class ContactLaw:
     inflection: sp.Expr
     source: str
     cutoff: int = 3
-    form: Stable | None = None
+    form: StableForm | None = None
 
     def ratio(self, closure_ratio: sp.Expr) -> sp.Expr:
         """Return p/p_max at the given h/sigma."""
         return self.phi.subs(r, closure_ratio)
 
     @property
-    def stable(self) -> Stable:
-        """Return how to compute the law.
+    def stable(self) -> StableForm:
+        """Return the form in which the law is computed.
 
         >>> ContactLaw("square", 1 / (1 + r**2), sp.Integer(1), "an example").stable.slope
         -2*r/(r**2 + 1)**2
         """
-        return self.form or Stable(((share, self.phi),), share, sp.diff(self.phi, r))
+        return self.form or StableForm(((share, self.phi),), share, sp.diff(self.phi, r))
 
 
 TANH = ContactLaw(
@@ -91,7 +90,7 @@ TANH = ContactLaw(
     phi=(1 + sp.tanh(4 - 2 * r)) / 2,
     inflection=sp.Integer(2),
     source="Eq. (4)",
-    form=Stable(
+    form=StableForm(
         names=(
             (odds, sp.exp(sp.Min(8 - 4 * r, HELD))),
             (share, odds / (1 + odds)),
@@ -109,7 +108,7 @@ EXPONENTIAL = ContactLaw(
     phi=sp.exp(-r),
     inflection=sp.S.NegativeInfinity,
     source="Greenwood and Williamson (1966), exponential distribution of heights",
-    form=Stable(names=((share, sp.exp(-r)),), value=share, slope=-share),
+    form=StableForm(names=((share, sp.exp(-r)),), value=share, slope=-share),
 )
 
 GENERAL = ContactLaw(
@@ -124,7 +123,7 @@ LAWS = MappingProxyType({law.name: law for law in (TANH, EXPONENTIAL)})
 
 
 def released(expr: sp.Expr) -> sp.Expr:
-    """Return an expression with its exponents no longer held: the exact form."""
+    """Return an expression without the bound HELD on its exponents: the exact form."""
     return expr.replace(
         lambda e: isinstance(e, sp.Min) and HELD in e.args,
         lambda e: next(argument for argument in e.args if argument != HELD),

@@ -111,7 +111,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
     import sympy as sp
 
     from .codegen.contact_law import faults_of
-    from .laws import ContactLaw, Stable, r, share
+    from .laws import ContactLaw, StableForm, r, share
     from .rules.proving import smooth_everywhere
     from .time_limit import TimeLimitError, time_limit
     from .written import evaluated, read
@@ -125,7 +125,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
             if not smooth_everywhere(phi):
                 raise UsageError(f"phi = {text} has a kink")
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
-            row = Stable(((share, value),), share, slope, value, slope / value)
+            row = StableForm(((share, value),), share, slope, value, slope / value)
             law = ContactLaw(NAME, phi, _inflection(phi), f"phi = {text}", form=row)
             if faults := faults_of(law):
                 raise UsageError("\n".join(faults))

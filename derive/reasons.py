@@ -1,10 +1,10 @@
-"""Why each condition is there: what fails without it, as a committed table.
+"""The reason of each condition: a counterexample to the equation without it.
 
 Overview
     The falsifier drops the conditions of each equation of the note in turn and looks for a model
-    of all the others in which the equation is false.  That takes minutes, so the outcome is kept
-    in ``reasons.json``, under a hash of hypotheses and claim; ``python -m derive.reasons`` tries
-    what is missing there.
+    of all the others in which the equation is false.  That takes minutes, so the table of the
+    outcomes is committed: ``reasons.json``, under a hash of hypotheses and claim.
+    ``python -m derive.reasons`` adds missing rows.
 Key results
     table        the rows, equation after equation
     outdated     the equations that have changed since
@@ -32,8 +32,8 @@ TABLE = Path(__file__).with_name("reasons.json")
 class Reason:
     """A condition of an equation, and a model that breaks it without this condition.
 
-    ``model`` is in LaTeX, an equation each, ``where`` says what is seen; both are empty where no
-    model was found.  ``key`` is a hash of hypotheses and claim.
+    ``model`` is in LaTeX, an equation each; ``where`` describes how the claim fails there; both
+    are empty where no model was found.  ``key`` is a hash of hypotheses and claim.
     """
 
     equation: str
@@ -51,13 +51,13 @@ def table() -> tuple[Reason, ...]:
 
 
 def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]:
-    """Return the ids of the equations of which a condition is missing in the rows."""
+    """Return the ids of the equations with a condition that is missing in the rows."""
     kept = {(row.equation, row.condition, row.key) for row in rows}
     return [e.id for e in equations if any(place not in kept for place in _places(e))]
 
 
 def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, Hypothesis]]:
-    """Return the conditions of an equation that models can be asked about, each by its place."""
+    """Return the conditions of an equation that the falsifier can drop, by id, text and hash."""
     return {
         (equation.id, condition.typed, _key(statement)): (statement, condition)
         for statement in equation.statements
@@ -67,12 +67,12 @@ def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, H
 
 
 def _key(statement: Judgement) -> str:
-    said = (statement.relation, *(h.relation for h in statement.hypotheses))
-    return hashlib.sha256("\n".join(map(str, said)).encode()).hexdigest()[:12]
+    relations = (statement.relation, *(h.relation for h in statement.hypotheses))
+    return hashlib.sha256("\n".join(map(str, relations)).encode()).hexdigest()[:12]
 
 
 def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[Reason]:
-    """Return a row for every condition; those that are missing are found."""
+    """Yield a row for every condition; look for the missing ones."""
     known = {(row.equation, row.condition, row.key): row for row in rows}
     for equation in equations:
         for place, (statement, condition) in _places(equation).items():
@@ -80,17 +80,17 @@ def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[R
 
 
 def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Reason:
-    found = without(statement, condition)
-    model = tuple(map(inline, found.model)) if found else ()
-    where = found.where if found else ""
+    broken = without(statement, condition)
+    model = tuple(map(inline, broken.model)) if broken else ()
+    where = broken.where if broken else ""
     return Reason(identifier, condition.typed, condition.latex, model, where, _key(statement))
 
 
 def main() -> None:
-    """Write the table of the note's equations anew."""
+    """Write the table of the note's equations."""
     from .catalogue import all_equations
 
-    of_the_note = [found for found in all_equations() if found.id[0].isdigit()]
+    of_the_note = [entry for entry in all_equations() if entry.id[0].isdigit()]
     rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
     TABLE.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 

@@ -1,8 +1,8 @@
 """The vocabulary: every quantity of the model, once.
 
 Overview
-    One table gives each quantity its name, LaTeX, unit, meaning and domain.  Symbols,
-    dimension checks and nomenclature tables all come from it.
+    One table gives each quantity its name, LaTeX, unit, meaning and domain: the source of
+    symbols, dimension checks and nomenclature tables.
 Key results
     QUANTITIES     the table
     symbol(name)   the SymPy symbol, or the function of time, of a quantity
@@ -22,7 +22,7 @@ t = sp.Symbol("t", nonnegative=True)
 
 
 REAL, NONNEGATIVE, POSITIVE = "real", "nonnegative", "positive"
-"""Domains, which bound a quantity in every theorem."""
+"""Domains of quantities, assumed in every theorem."""
 
 
 class Quantity(NamedTuple):
@@ -46,7 +46,7 @@ _TABLE = (
         "h_rigid",
         r"h_{\mathrm{rigid}}",
         "mm",
-        "closure if the support did not give way",
+        "closure on a rigid support",
         REAL,
         True,
     ),
@@ -105,7 +105,7 @@ _TABLE = (
     Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", NONNEGATIVE),
     # long-time expansion
     Quantity("tau", r"\tau", "1", "time in cycles, t/T", NONNEGATIVE),
-    Quantity("s_0", "s_0", "mm", "what the roughness remembers of its start", REAL),
+    Quantity("s_0", "s_0", "mm", "initial offset of the roughness", REAL),
     Quantity("m", "m", "mm", "roughness without its oscillation in a cycle", POSITIVE),
     Quantity("rho", r"\rho", "mm", "asymptotic growth of the roughness per cycle", POSITIVE),
     Quantity("c_1", "c_1", "mm", "drift at order 1/m", REAL),
@@ -143,10 +143,10 @@ DATA = frozenset(
     )
     for name in names.split()
 )
-"""Parameters that may vary each by itself: all others are made of them."""
+"""The independent parameters; all others are functions of them."""
 
 CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E"])
-"""Symbols of what varies in time; any other symbol is a constant."""
+"""Symbols that vary in time; any other symbol is a constant."""
 
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})
 """The vocabulary by name."""

@@ -1,6 +1,6 @@
-"""What both commands have in common: exit status, errors without a traceback, JSON, `--version`.
+"""The terminal of both commands: exit status, errors without traceback, JSON, `--version`.
 
-This module is imported at the start of every command, so it imports the standard library alone.
+Every command imports this module at its start, so it imports the standard library alone.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FAILED = 1  # a verification does not hold
 USAGE = 2  # bad usage, bad scene, a file that cannot be read or written
 INACCURATE = 3  # the requested accuracy was not reached
 INTERRUPTED = 130
-SILENT, APART = 2.0, 0.5  # s, before what is being done is shown, and between two times
+SILENT, APART = 2.0, 0.5  # s, before the current activity is shown, and between two updates
 
 
 def run(
@@ -38,11 +38,11 @@ def run(
     Parameters
     ----------
     name
-        What error messages begin with.
+        The prefix of error messages.
     main
         Does the work, prints the results and returns the exit status.
     expected
-        Exceptions that are the user's to mend, with the exit status of each. Their text is
+        Exceptions that the user can mend, with the exit status of each. Their text is
         printed without a traceback. An `OSError` is always among them.
     """
     _prepare_output()
@@ -62,7 +62,7 @@ def run(
         complain(name, str(fault))
         status = next(code for kind, code in expected.items() if isinstance(fault, kind))
     finally:
-        _let_go_of_output()
+        _discard_output()
     return status
 
 
@@ -72,21 +72,23 @@ def complain(name: str, message: str) -> None:
     print(f"{name}: {message}", file=sys.stderr)
 
 
-def progress(what: str) -> None:
-    """Show what is being done, on one line of a terminal; nothing elsewhere. '' clears the line."""
+def progress(activity: str) -> None:
+    """Show an activity on one line of a terminal, nothing elsewhere; '' clears the line."""
     if sys.stderr.isatty() and os.environ.get("TERM") != "dumb":
         width = shutil.get_terminal_size().columns - 1
-        print(f"\r\033[K{what[:width]}", end="", file=sys.stderr, flush=True)
+        print(f"\r\033[K{activity[:width]}", end="", file=sys.stderr, flush=True)
 
 
 @contextmanager
-def busy(what: str) -> Iterator[Callable[[str], None]]:
-    """Show on a terminal what takes more than two seconds, and for how long it has; what the
-    function that is given is told stands in its place."""
-    begun, shown, done = time.monotonic(), [what], threading.Event()
+def busy(activity: str) -> Iterator[Callable[[str], None]]:
+    """Show an activity and its duration on a terminal if it takes more than two seconds.
 
-    def tell(words: str) -> None:
-        shown[0] = words
+    Yields a function that replaces the text of the activity.
+    """
+    begun, shown, done = time.monotonic(), [activity], threading.Event()
+
+    def show(text: str) -> None:
+        shown[0] = text
 
     def tick() -> None:
         wait = SILENT
@@ -97,7 +99,7 @@ def busy(what: str) -> Iterator[Callable[[str], None]]:
     clock = threading.Thread(target=tick, daemon=True)
     clock.start()
     try:
-        yield tell
+        yield show
     finally:
         done.set()
         clock.join()
@@ -105,7 +107,7 @@ def busy(what: str) -> Iterator[Callable[[str], None]]:
 
 
 def shows_formulas() -> bool:
-    """Return whether standard output has the characters that formulas are drawn with."""
+    """Return whether standard output can encode the characters of drawn formulas."""
     try:
         "\u239b\u2500\u03c3\u221e".encode(sys.stdout.encoding or "ascii")
     except UnicodeEncodeError:
@@ -114,9 +116,9 @@ def shows_formulas() -> bool:
 
 
 def print_json(document: object) -> None:
-    """Print one JSON document to standard output. Floats read back as the same floats.
+    """Print one JSON document to standard output. Floats keep all their digits.
 
-    Arrays become lists. JSON has no word for NaN and infinity: they become `null`.
+    Arrays become lists. NaN and infinity, which JSON lacks, become `null`.
 
     >>> print_json({"wear_mm": (1e-07, 0.1 + 0.2), "arrest_cycle": math.nan})
     {
@@ -177,7 +179,7 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def count(number: int, noun: str) -> str:
-    """Return a number of things, in the plural but for one.
+    """Return a number and a noun, in the plural unless the number is one.
 
     >>> count(1, "equation"), count(2, "equation")
     ('1 equation', '2 equations')
@@ -186,7 +188,7 @@ def count(number: int, noun: str) -> str:
 
 
 class PrintAndStop(argparse.Action):
-    """An option like `--version`: prints a text that is only made when asked for, and stops."""
+    """An option like `--version`: makes a text, prints it and stops."""
 
     def __init__(
         self,
@@ -217,7 +219,7 @@ def add_common_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _version(parser: argparse.ArgumentParser) -> str:
-    from importlib.metadata import version  # takes longer than all the rest of this module
+    from importlib.metadata import version  # slower to import than the rest of this module
 
     return f"{parser.prog} {version('derive-wear')}"
 
@@ -229,8 +231,8 @@ def _describe(fault: OSError) -> str:
 
 
 def _prepare_output() -> None:
-    """Let nothing fail to print: neither where the terminal's encoding lacks a character, nor where
-    the command was started with its output closed."""
+    """Make printing safe where the terminal's encoding lacks a character, and where the command
+    was started with its output closed."""
     sys.stdout = sys.stdout or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
     sys.stderr = sys.stderr or Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
@@ -239,8 +241,8 @@ def _prepare_output() -> None:
             reconfigure(errors="backslashreplace")
 
 
-def _let_go_of_output() -> None:
-    """Drop what standard output cannot take, or the interpreter would complain on its way out."""
+def _discard_output() -> None:
+    """Discard output that cannot be written; else the interpreter would complain at its exit."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -1,4 +1,4 @@
-"""Variants: what a scene needs, and nothing else.
+"""Variants: the choices by which the models of scenes differ.
 
 Key results
     Variant     law, support, pin, loss of contact
@@ -11,15 +11,15 @@ from dataclasses import dataclass
 from itertools import product
 
 from .laws import LAWS, ContactLaw
-from .note.condensed import Condensed, condensed
+from .note.condensed import CondensedProblem, condensed
 from .note.governing import Pin
 
 
 @dataclass(frozen=True)
 class Variant:
-    """A choice of what is modelled.
+    """A choice of contact law, support, pin, and whether contact can be lost.
 
-    Whether wear of a pin opens or closes the gap is no part of it, but a number: its sign.
+    Whether wear of a pin opens or closes the gap is not a variant but a sign, given at run time.
 
     >>> variant = Variant(LAWS["tanh"], compliant=False, pin=Pin.WORN, ends_at_3_sigma=True)
     >>> variant.module, variant.name
@@ -42,7 +42,7 @@ class Variant:
         return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property
-    def model(self) -> Condensed:
+    def model(self) -> CondensedProblem:
         """Return the hypotheses that the variant rests on, with the printed sign of pin wear."""
         return condensed(self.law, False, self.pin)
 

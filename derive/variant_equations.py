@@ -1,4 +1,4 @@
-"""The equations of one variant: what its scene needs, and nothing else.
+"""The equations of one variant, as reports and explorer show them.
 
 Key results
     equations_of    closure, roughness, contact law, wear, and all of them in one
@@ -32,7 +32,7 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
     closure = substitute(model.closure, *absent) if absent else model.closure
     law = model.pressure_with_cutoff if variant.ends_at_3_sigma else model.pressure
     of_note, printed = variant.law is TANH, not (opening and model.pin.wears)
-    found = {
+    proofs = {
         "closure": ("closure of the mean surfaces", "1" * printed, closure),
         "roughness": ("equivalent roughness", "3", model.roughness_at_wear),
         "pressure": ("contact pressure", "4" * of_note, law),
@@ -40,16 +40,16 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
         "slip": ("slip rate", "", model.slip),
     }
     if model.pin.wears:
-        found["pin-wear"] = ("wear of the pin", "5", model.wear_of_pin)
+        proofs["pin-wear"] = ("wear of the pin", "5", model.wear_of_pin)
     if variant.compliant:
-        found["deflection"] = ("deflection of the support", "2", model.deflection)
+        proofs["deflection"] = ("deflection of the support", "2", model.deflection)
     if not variant.ends_at_3_sigma:
         whole = model.implicit if variant.compliant else model.rigid_condensed
         if whole.relation.has(u_a):
             whole = substitute(whole, model.wear_of_pin)
         number = variant.equations[-1] if of_note and printed else ""
-        found["whole"] = ("the model in one equation", number, whole)
+        proofs["whole"] = ("the model in one equation", number, whole)
     return tuple(
         Equation(f"scene-{name}", "", title + f", by ({number})" * bool(number), (proved,))
-        for name, (title, number, proved) in found.items()
+        for name, (title, number, proved) in proofs.items()
     )

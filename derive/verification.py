@@ -2,11 +2,11 @@
 
 Overview
     Different equations rest on the same steps, which are built anew for each variant of the
-    model.  A step is the same if its rule, its claim and hypotheses, and those of its parents
-    are.  The work of many equations is in parts, one an equation, that may be done elsewhere.
+    model.  Two steps are the same if their rules, claims, hypotheses and those of their parents
+    are.  Each equation is a task, which may be done in another process.
 Key results
-    verify      the verdict on each equation: what ``derive verify`` prints
-    verified    all of them together: what the report counts
+    verify            the verdict on each equation, as ``derive verify`` prints it
+    verification_of   the outcome of all checks together, for the report
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from functools import cache, partial
 from typing import NamedTuple
 
 from .catalogue import all_equations, equation
-from .check import Check, checks, on_models, reasons_of
+from .check import Check, condition_checks, model_checks, step_checks
 from .equations import Equation, Status
 from .kernel import Judgement, identity
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """What came of the checks of one equation."""
+class EquationVerdict:
+    """The outcome of the checks of one equation."""
 
     id: str
     status: Status
@@ -32,13 +32,13 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
-        """Whether every check passed."""
+        """Return whether every check passed."""
         return all(outcome.passed for outcome in self.checks)
 
 
 @dataclass(frozen=True)
 class Verification:
-    """What came of the checks: by step, and those that failed by equation."""
+    """The outcome of the checks of many equations: by step, and the failures by equation."""
 
     outcomes: Mapping[Hashable, tuple[Check, ...]]
     failures: tuple[tuple[str, Check], ...]
@@ -46,91 +46,95 @@ class Verification:
 
     @property
     def passed(self) -> bool:
-        """Whether every check of every equation passed."""
+        """Return whether every check of every equation passed."""
         return not self.failures
 
     @property
     def steps(self) -> int:
-        """How many distinct steps were checked."""
+        """Return the number of distinct steps that were checked."""
         return len(self.outcomes)
 
     @property
     def checks(self) -> int:
-        """How many checks these took."""
+        """Return the number of checks of steps."""
         return sum(map(len, self.outcomes.values()))
 
     def of_kind(self, kind: str) -> int:
-        """How many of these are of one kind."""
+        """Return the number of checks of steps that are of one kind."""
         return sum(check.kind == kind for checks in self.outcomes.values() for check in checks)
 
 
-class Part(NamedTuple):
-    """An equation with those of its steps on which no equation before it rests; ``claimed`` are
-    those that an equation states."""
+class Task(NamedTuple):
+    """An equation and its steps, without those of earlier tasks.
+
+    ``stated`` are the steps that an equation states; models are drawn for them.
+    """
 
     equation: Equation
     steps: Mapping[Hashable, Judgement]
-    claimed: frozenset[Hashable]
+    stated: frozenset[Hashable]
 
 
 class Outcome(NamedTuple):
-    """The checks of a part: of its equation, and of each of its steps."""
+    """The checks of a task: of its equation, and of each of its steps."""
 
     equation: tuple[Check, ...]
     steps: tuple[tuple[Check, ...], ...]
 
 
-def parts(equations: Sequence[Equation]) -> list[Part]:
-    """Return the work of checking equations, nothing twice."""
-    claimed = frozenset(identity(claim) for each in equations for claim in each.statements)
+def tasks(equations: Sequence[Equation]) -> list[Task]:
+    """Return a task for each equation; every step is in one of them alone."""
+    stated = frozenset(identity(s) for entry in equations for s in entry.statements)
     seen: set[Hashable] = set()
-    found = []
-    for one in equations:
-        new = {key: step for step in one.steps if (key := identity(step)) not in seen}
+    result = []
+    for entry in equations:
+        new = {key: step for step in entry.steps if (key := identity(step)) not in seen}
         seen |= new.keys()
-        found.append(Part(one, new, claimed & new.keys()))
-    return found
+        result.append(Task(entry, new, stated & new.keys()))
+    return result
 
 
-def checked(part: Part) -> Outcome:
-    """Check the steps of a part, and that what is typeset is what was derived; try what it claims
-    on models."""
-    shown = Check("typeset", part.equation.typeset_agrees, "the display form equals the claim")
+def perform(task: Task) -> Outcome:
+    """Check the steps of a task, its stated ones on models too, and the typeset form."""
+    shown = Check("typeset", task.equation.typeset_agrees, "the display form equals the claim")
     steps = (
-        (*checks(step), *(on_models(step) if key in part.claimed else ()))
-        for key, step in part.steps.items()
+        (*step_checks(step), *(model_checks(step) if key in task.stated else ()))
+        for key, step in task.steps.items()
     )
     return Outcome((shown,), tuple(steps))
 
 
-def checked_at(place: int) -> Outcome:
-    """Check the part of the catalogue at this place, in whatever process."""
-    return checked(_catalogue()[place])
+def perform_at(place: int) -> Outcome:
+    """Perform the task at this place of the catalogue; a worker process builds its own tasks."""
+    return perform(_catalogue()[place])
 
 
 @cache
-def _catalogue() -> list[Part]:
-    return parts(all_equations())
+def _catalogue() -> list[Task]:
+    return tasks(all_equations())
 
 
-def _by_step(work: Sequence[Part], found: Sequence[Outcome]) -> dict[Hashable, tuple[Check, ...]]:
+def _by_step(work: Sequence[Task], done: Sequence[Outcome]) -> dict[Hashable, tuple[Check, ...]]:
     return {
-        key: made
-        for part, outcome in zip(work, found, strict=True)
-        for key, made in zip(part.steps, outcome.steps, strict=True)
+        key: checks
+        for task, outcome in zip(work, done, strict=True)
+        for key, checks in zip(task.steps, outcome.steps, strict=True)
     }
 
 
-def _verdicts(work: Sequence[Part], found: Sequence[Outcome]) -> tuple[Verdict, ...]:
-    """Return the verdicts on equations from what came of their parts."""
-    known = _by_step(work, found)
+def _verdicts(work: Sequence[Task], done: Sequence[Outcome]) -> tuple[EquationVerdict, ...]:
+    """Return the verdicts on equations from the outcomes of all tasks."""
+    known = _by_step(work, done)
     return tuple(
-        Verdict(
-            one.id,
-            one.status,
-            (*(check for s in one.steps for check in known[identity(s)]), *outcome.equation),
+        EquationVerdict(
+            task.equation.id,
+            task.equation.status,
+            (
+                *(check for s in task.equation.steps for check in known[identity(s)]),
+                *outcome.equation,
+            ),
         )
-        for (one, _, _), outcome in zip(work, found, strict=True)
+        for task, outcome in zip(work, done, strict=True)
     )
 
 
@@ -138,34 +142,33 @@ def verify(
     identifiers: str | Iterable[str] = (),
     progress: Callable[[int, int, str], None] | None = None,
     deep: bool = False,
-) -> tuple[Verdict, ...]:
-    """Re-run every check on which the named equations rest (all of them if none is named); a text
-    is one identifier.
+) -> tuple[EquationVerdict, ...]:
+    """Re-run every check on which the named equations rest (all of them if none is named).
 
-    Every step is tried on models.  ``progress`` is told how many of how many equations are done,
-    and which is next.  With ``deep`` each hypothesis of an equation is dropped in turn, which
-    takes minutes.
+    A text is one identifier.  Every step is tried on models.  ``progress`` receives the number of
+    equations done, that of all, and the id of the next.  With ``deep`` each hypothesis of an
+    equation is dropped in turn, which takes minutes.
     """
     named = (identifiers,) if isinstance(identifiers, str) else identifiers
     chosen = [equation(identifier) for identifier in named] or list(all_equations())
-    work = [part._replace(claimed=frozenset(part.steps)) for part in parts(chosen)]
-    found = []
-    for number, part in enumerate(work):
+    work = [task._replace(stated=frozenset(task.steps)) for task in tasks(chosen)]
+    done = []
+    for number, task in enumerate(work):
         if progress is not None:
-            progress(number, len(work), part.equation.id)
-        shown, steps = checked(part)
-        why = (r for s in part.equation.statements for r in reasons_of(s)) if deep else ()
-        found.append(Outcome((*shown, *why), steps))
-    return _verdicts(work, found)
+            progress(number, len(work), task.equation.id)
+        shown, steps = perform(task)
+        needed = (c for s in task.equation.statements for c in condition_checks(s)) if deep else ()
+        done.append(Outcome((*shown, *needed), steps))
+    return _verdicts(work, done)
 
 
-def verified(
-    equations: Sequence[Equation], answers: Sequence[Callable[[], Outcome]] | None = None
+def verification_of(
+    equations: Sequence[Equation], outcomes: Sequence[Callable[[], Outcome]] | None = None
 ) -> Verification:
-    """Check every step of these equations, unless ``answers`` have what came of their parts."""
-    work = parts(equations)
-    fetched = [partial(checked, part) for part in work] if answers is None else answers
-    found = [fetch() for fetch in reversed(fetched)][::-1]  # the last ones are not begun elsewhere
-    verdicts = _verdicts(work, found)
+    """Check every step of these equations; ``outcomes``, if given, fetch those of their tasks."""
+    work = tasks(equations)
+    fetches = [partial(perform, task) for task in work] if outcomes is None else outcomes
+    done = [fetch() for fetch in reversed(fetches)][::-1]  # no other process has begun the last
+    verdicts = _verdicts(work, done)
     failures = ((v.id, check) for v in verdicts for check in v.checks if not check.passed)
-    return Verification(_by_step(work, found), tuple(failures), len(equations))
+    return Verification(_by_step(work, done), tuple(failures), len(equations))

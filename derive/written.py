@@ -1,8 +1,8 @@
 """Equations as an author writes them: text, read into expressions in which nothing is moved.
 
 Overview
-    SymPy sorts terms and moves signs.  What is typeset in an author's order, and what the note
-    prints, is therefore text, ``K_c V p_max/(6 H_c) (1 + tanh(4 - 2/f_c))``: a blank between
+    SymPy sorts terms and moves signs.  Formulas in an author's order, and those that the note
+    prints, are therefore text, ``K_c V p_max/(6 H_c) (1 + tanh(4 - 2/f_c))``: a blank between
     factors multiplies, ``^`` is a power, ``du_c/dt`` a rate, ``u_c(t + T)`` a field at another
     time, ``phi'(r)`` the slope of a law, ``lim(x)`` a limit for t -> oo, and ``a < b < c`` two
     relations.  Python's own parser reads it; nothing is executed.
@@ -31,7 +31,7 @@ from .rules.limits import forever, later
 from .symbols import QUANTITIES, symbol, t
 
 Names = Mapping[str, Any]
-"""What names outside the vocabulary stand for: symbols, or functions of scaled time."""
+"""The meaning of names outside the vocabulary: symbols, or functions of scaled time."""
 
 _IN_PYTHON = (
     (r"(?<=[\w)]) (?=[\w(])", "*"),
@@ -74,14 +74,14 @@ def read(text: str, names: Names = MappingProxyType({})) -> sp.Basic:
 
 @cache
 def evaluated(expr: sp.Basic) -> sp.Basic:
-    """Return an expression that was built as written, evaluated."""
+    """Return the evaluated form of an expression that was built unevaluated."""
     if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
         return expr
     return expr.func(*(evaluated(argument) for argument in expr.args))
 
 
 class _Reader(ast.NodeVisitor):
-    """Rebuilds what Python's parser made of a text, from the nodes that the grammar has."""
+    """Translates Python's syntax tree of a formula; refuses nodes outside the grammar."""
 
     def __init__(self, names: Names) -> None:
         self._names = {"t": t, "pi": sp.pi, **names}
@@ -98,8 +98,8 @@ class _Reader(ast.NodeVisitor):
         name = node.id.rstrip("_")
         if name not in self._names:
             return symbol(name) if name in QUANTITIES else sp.Symbol(name, real=True)
-        found = self._names[name]
-        return found(symbol("tau")) if isinstance(found, UndefinedFunction) else found
+        bearer = self._names[name]
+        return bearer(symbol("tau")) if isinstance(bearer, UndefinedFunction) else bearer
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> sp.Basic:
         return _OPERATIONS[type(node.op)](self.visit(node.operand))
@@ -121,20 +121,20 @@ class _Reader(ast.NodeVisitor):
 
     def visit_Compare(self, node: ast.Compare) -> sp.Basic:
         sides = [self.visit(side) for side in (node.left, *node.comparators)]
-        found = [
+        relations = [
             _OPERATIONS[type(op)](*pair)
             for op, pair in zip(node.ops, itertools.pairwise(sides), strict=True)
         ]
-        return found[0] if len(found) == 1 else sp.And(*found)
+        return relations[0] if len(relations) == 1 else sp.And(*relations)
 
     def visit_Call(self, node: ast.Call) -> sp.Basic:
         name = ast.unparse(node.func)
         if name == "slope":
             law, point = self._function(ast.unparse(node.args[0])), self.visit(node.args[1])
             return sp.Subs(sp.Derivative(law(r), r), r, point)
-        arguments = [self.visit(each) for each in node.args]
+        arguments = [self.visit(argument) for argument in node.args]
         if name == "integral":
-            with sp.evaluate(True):  # else SymPy writes an orientation, 1, into the integrand
+            with sp.evaluate(True):  # unevaluated, SymPy would put a factor 1 into the integrand
                 return sp.Integral(arguments[0], tuple(arguments[1:]))
         return (_FUNCTIONS.get(name) or self._function(name))(*arguments)
 

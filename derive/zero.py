@@ -1,11 +1,11 @@
 """The zero test: is an expression identically zero?
 
 Overview
-    ``simplify`` is unbounded and guesses.  Here a short, fixed list of exact moves is tried:
-    arguments of functions are expanded, hyperbolic functions become exponentials, exponentials
-    of sums become products, and the result is brought over one denominator.
+    ``simplify`` is unbounded and heuristic.  This test applies a short, fixed list of exact
+    transformations: arguments of functions are expanded, hyperbolic functions become exponentials,
+    exponentials of sums become products, and the result is brought over one denominator.
 Key results
-    is_zero(expr)    True only when the moves reach 0
+    is_zero(expr)    True only if the transformations reach 0
     same(a, b)       is_zero(a - b), also for relations and systems of them
 """
 
@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef, Function
 from sympy.core.relational import Relational
 
 _NOISE = sp.Float(10) ** -12
-"""What 30 digits of terms of moderate size may leave of an exact zero."""
+"""Bound of the rounding error of an exact zero, in 30 digits, with terms of moderate size."""
 _NOT_PLAIN = (sp.Integral, sp.Limit, sp.Subs, sp.Sum)
 
 
@@ -40,8 +40,8 @@ def is_zero(expr: sp.Expr) -> bool:
 
 def _fields_as_symbols(expr: sp.Expr) -> sp.Expr:
     """Replace fields and derivatives by symbols of the same sign, which SymPy handles faster."""
-    found = expr.atoms(sp.Derivative, AppliedUndef)
-    outermost_first = sorted(found, key=lambda a: (not isinstance(a, sp.Derivative), str(a)))
+    atoms = expr.atoms(sp.Derivative, AppliedUndef)
+    outermost_first = sorted(atoms, key=lambda a: (not isinstance(a, sp.Derivative), str(a)))
     return expr.xreplace({atom: sp.Dummy(**_signs(atom)) for atom in outermost_first})
 
 
@@ -55,9 +55,9 @@ def _expand(expr: sp.Expr) -> sp.Expr:
 
 
 def _differs_from_zero(expr: sp.Expr) -> bool:
-    """Return True when a number shows that ``expr`` is not identically zero.
+    """Return True if the value at a random point shows that ``expr`` is not identically zero.
 
-    One point suffices, and is much quicker than rewriting in vain.
+    One point suffices, and is much faster than rewriting in vain.
     """
     generator = random.Random(1)
     point = {}
@@ -69,7 +69,7 @@ def _differs_from_zero(expr: sp.Expr) -> bool:
 
 
 def same(left: sp.Basic, right: sp.Basic) -> bool:
-    """Return True when two expressions, relations or systems say the same, side by side."""
+    """Return True if two expressions, relations or systems are equal, side by side."""
     if left == right:
         return True
     if isinstance(left, Relational) and isinstance(right, Relational):
@@ -85,7 +85,7 @@ def same(left: sp.Basic, right: sp.Basic) -> bool:
 
 
 def _normal_arguments(expr: sp.Expr, known: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    """Bring the arguments of functions, and what stands under roots, to one expanded form."""
+    """Bring the arguments of functions and the radicands of roots to one expanded form."""
     if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative, sp.Piecewise)):
         return expr
     if expr not in known:
@@ -106,7 +106,7 @@ def _exponentials(expr: sp.Expr) -> sp.Expr:
 def _merged(expr: sp.Expr) -> sp.Expr:
     """Write the exponentials of each term as one, its argument in lowest terms.
 
-    Exponentials whose arguments differ by a constant would else pass for independent.
+    Otherwise exponentials whose arguments differ by a constant would seem independent.
     """
     merged = []
     for term in sp.Add.make_args(expr):

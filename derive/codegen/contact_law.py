@@ -1,7 +1,7 @@
 """A contact law as code: its value and relative slope in forms that do not overflow.
 
 Key results
-    faults_of   why no code is written for a law
+    faults_of   the properties without which no code is written for a law
     formulas    share p/p_max and relative slope of a law
     module      the source of a module with them
 """
@@ -16,38 +16,38 @@ from ..zero import is_zero
 from .formulas import Formula, formula_module
 
 _DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
-"""From the inflection, in h/sigma: where the curvature of a law is looked at."""
+"""Distances from the inflection, in h/sigma, at which the curvature of a law is checked."""
 
 
 def faults_of(law: ContactLaw) -> tuple[str, ...]:
-    """Return what is not proved of a law: positive, decreasing, curved as stated, computed as phi.
+    """Return the unproved properties of a law: positive, decreasing, one inflection, exact form.
 
     >>> from derive.laws import TANH
     >>> faults_of(TANH)
     ()
     """
     slope = sp.diff(law.phi, r)
-    found = [
-        f"{law.name}: {expression} is not proved to be {wanted}; if it is, write phi otherwise"
-        for expression, wanted, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
+    faults = [
+        f"{law.name}: {expression} is not proved to be {claim}; if it is, write phi otherwise"
+        for expression, claim, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
         if sign(expression) != expected
     ]
     everywhere = not law.inflection.is_finite
     place = sp.Integer(0) if everywhere else law.inflection
     convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
     if convex != [everywhere or d > 0 for d in _DISTANCES]:
-        found.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
+        faults.append(f"{law.name}: phi does not turn from concave to convex at {law.inflection}")
     forms = zip(_exact_forms(law), (law.phi, slope), strict=True)
     if not all(is_zero((form - exact).rewrite(sp.exp)) for form, exact in forms):
-        found.append(f"{law.name}: the form to compute with is not phi")
-    return tuple(found)
+        faults.append(f"{law.name}: the form to compute with is not phi")
+    return tuple(faults)
 
 
 def _exact_forms(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
-    """Return value and slope as they are computed, in r alone and without rounding."""
+    """Return the computed forms of value and slope, in r alone and without bounded exponents."""
     value, slope = law.stable.value, law.stable.slope
     for name, form in reversed(law.stable.names):
-        value, slope = (each.xreplace({name: released(form)}) for each in (value, slope))
+        value, slope = (e.xreplace({name: released(form)}) for e in (value, slope))
     return value, slope
 
 
@@ -65,7 +65,7 @@ def formulas(law: ContactLaw) -> tuple[Formula, Formula]:
 
 
 def equal(form: sp.Expr, exact: sp.Expr) -> sp.Expr:
-    """Return a form of an expression after it is proved to equal it."""
+    """Return the form; ValueError unless it is proved to equal the exact expression."""
     if not is_zero(form - exact):
         raise ValueError(f"{form} is not {exact}")
     return form

@@ -1,11 +1,10 @@
 """Emitting: expressions as source text, one printer for every language.
 
 Overview
-    A target is a table: how the language writes functions, powers, numbers and names.  Only
-    what the table has can be printed; anything else is an error, never a guess.  Sums put
-    what is added before what is subtracted, products divide once.  Half-integer powers are
-    products with a square root.  The table and a template of the same name in ``templates`` are
-    all that there is of a language.
+    A target is a table of the forms of functions, powers, numbers and names in a language.
+    Anything outside the table is an error, never a guess.  Sums begin with their positive terms,
+    products divide once.  Half-integer powers are products with a square root.  The table and
+    the template of the same name in ``templates`` define a language.
 Key results
     Target    the table of one language
     TARGETS   the tables
@@ -26,17 +25,17 @@ _ADD, _MUL, _POW, _ATOM = range(4)
 
 
 class EmitError(ValueError):
-    """An expression holds something that the target cannot write."""
+    """A part of an expression has no form in the target's language."""
 
 
 @dataclass(frozen=True)
 class Target:
-    """How a language writes expressions.
+    """The forms of expressions in a language.
 
     ``functions`` maps SymPy functions onto names; ``power`` writes base and integer exponent;
-    ``number`` writes a floating-point literal from a decimal string; ``rename`` says how a
-    symbol is reached.  ``constant`` and ``parameter`` are formats: how a constant of the run is
-    reached within a function, and a parameter within ``bind``.
+    ``number`` writes a floating-point literal from a decimal string; ``rename`` gives the text of
+    a symbol.  ``constant`` and ``parameter`` are formats: of a constant of the run within a
+    function, and of a parameter within ``bind``.
     """
 
     name: str
@@ -51,7 +50,7 @@ class Target:
 
 
 def emit(expr: sp.Expr, target: Target) -> str:
-    """Return ``expr`` in the language of ``target``; EmitError if it has no words for it."""
+    """Return ``expr`` in the language of ``target``; EmitError if the table lacks a form."""
     text, _ = _emit(expr, target)
     return text
 
@@ -82,7 +81,7 @@ def _emit(expr: sp.Expr, target: Target) -> tuple[str, int]:
 
 
 def _ordered(expr: sp.Expr) -> tuple[sp.Basic, ...]:
-    """Return the arguments of a function, those of a minimum or maximum with numbers last."""
+    """Return the arguments of a function; a minimum or maximum has its numbers last."""
     if not isinstance(expr, (sp.Min, sp.Max)):
         return tuple(expr.args)
     if len(expr.args) != 2:
@@ -93,8 +92,8 @@ def _ordered(expr: sp.Expr) -> tuple[sp.Basic, ...]:
 def _fraction(expr: sp.Add, target: Target) -> tuple[str, int] | None:
     """Return ``x + 9/2`` as ``(2 * x + 9) / 2``, None for a sum without such a number.
 
-    In Python 9 / 2 is a float, which does not add to a number of 60 digits; this way only those
-    numbers are divided that the caller chose.
+    In Python 9 / 2 is a float, which would limit a number of 60 digits to 16; in this form the
+    quotient has the caller's type of number.
     """
     below = next((a.q for a in expr.args if a.is_Rational and not a.is_Integer), 1)
     if below == 1:
@@ -114,7 +113,7 @@ def _sum(expr: sp.Add, target: Target) -> str:
 
 
 def _rank(term: sp.Expr) -> tuple[int, str]:
-    """Data before state, single symbols before products."""
+    """Return the rank of a term in a sum: single symbols before products."""
     return len(term.args), str(term)
 
 
@@ -131,7 +130,7 @@ def _product(expr: sp.Mul, target: Target) -> tuple[str, int]:
 
 
 def _distance(factor: sp.Expr, target: Target) -> int:
-    """Numbers stand first, then what is reached through a prefix (constants), then the state."""
+    """Return the rank of a factor: numbers, then constants (with a prefix), then the state."""
     if factor.is_number:
         return 0
     return 1 if any(target.rename(s.name) != s.name for s in factor.free_symbols) else 2
@@ -142,7 +141,7 @@ def _power(expr: sp.Pow, target: Target) -> tuple[str, int]:
     if exponent == sp.Rational(1, 2):
         return f"{target.functions[sp.sqrt]}({emit(base, target)})", _ATOM
     if exponent.is_Integer and exponent > 0:
-        # a language may write a power as a product, which binds no closer than one
+        # a language may write a power as a product, so it has the precedence of one
         return target.power(_wrapped(base, target, _ATOM), int(exponent)), _MUL
     if exponent.is_Rational and exponent.q == 2 and exponent > 0:
         rest = sp.Pow(base, exponent - sp.Rational(1, 2))
@@ -173,12 +172,12 @@ def _product_of_equals(base: str, exponent: int) -> str:
 
 
 def _floating(decimal: str) -> str:
-    """Write every number as a double: an integer divided by an integer would be cut off."""
+    """Write every number as a double: a quotient of integers would be truncated."""
     return decimal if any(mark in decimal for mark in ".e") else f"{decimal}.0"
 
 
 _IN_WORDS = {"U_a": "pin_displacement", "U_c": "bearing_displacement"}
-"""Fortran does not distinguish U_a from u_a."""
+"""Names for Fortran, which does not distinguish U_a from u_a."""
 
 NUMPY = Target(
     name="numpy",

@@ -3,7 +3,7 @@
 Key results
     Formula          a named expression or relation, its arguments and its meaning
     formula_module   the NumPy source of a module of them
-    formula_script   the JavaScript of them, to stand inside another script
+    formula_script   the JavaScript of them, for use inside another script
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from .sources import rendered
 class Formula:
     """A function to generate: ``arguments`` come first, all data follow by keyword.
 
-    ``parts`` are intermediates, in order, that later ones and the value may use.  The function of a
-    relation, or of several, says whether it holds.
+    ``parts`` are intermediates, in order, that later ones and the value may use.  The function of
+    one or several relations returns whether they hold.
     """
 
     name: str
@@ -35,7 +35,7 @@ class Formula:
 
     @property
     def kind(self) -> str:
-        """Return the type of what the function returns."""
+        """Return the type of the function's result."""
         return "Real" if isinstance(self.value, sp.Expr) else "Any"
 
     @property
@@ -54,14 +54,14 @@ class Formula:
         strict = {"==": "===", "!=": "!=="} if script else {}
         relations = self.value.args if isinstance(self.value, sp.And) else (self.value,)
         return (" && " if script else " and ").join(
-            f"{emit(each.lhs, target)} {strict.get(each.rel_op, each.rel_op)} "
-            f"{emit(each.rhs, target)}"
-            for each in relations
+            f"{emit(part.lhs, target)} {strict.get(part.rel_op, part.rel_op)} "
+            f"{emit(part.rhs, target)}"
+            for part in relations
         )
 
 
 def formula_module(title: str, origin: Sequence[str], formulas: Sequence[Formula]) -> str:
-    """Return the source of a module; ``origin`` names the results that it comes from."""
+    """Return the source of a module; ``origin`` has the ids of the underlying results."""
     return rendered(
         "formulas.numpy",
         title=title,

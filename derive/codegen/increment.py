@@ -1,12 +1,12 @@
-"""Laws for a finite element code: contact pressure, and what a time increment adds to the state.
+"""Laws for a finite element code: contact pressure, and growth of the state in a time increment.
 
 Overview
-    A finite element code finds the contact pressure itself; of the model it needs Archard's law
-    and the change of roughness, (5).  Their rates do not depend on the state, so that rate times
-    increment is exact while pressure and slip rate are constant.
+    A finite element code computes the contact pressure itself; from the model it needs Archard's
+    law and the change of roughness, (5).  Their rates do not depend on the state, so that rate
+    times increment is exact while pressure and slip rate are constant.
 Key results
     Increment    parameters, and the growth of each state variable
-    increment    that of a variant
+    increment    the increment of a variant
     contact      the contact pressure and its derivative at a closure
 """
 
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..program.function import Assignment, Function, made
+from ..program.function import Assignment, Function, pruned
 from ..program.functions import law, p_max
 from ..program.symbols import h, ratio, sigma
 from ..symbols import rate, symbols
@@ -25,21 +25,21 @@ from ..variant import Variant
 pressure, slip_rate, time_increment = sp.symbols(
     "pressure slip_rate time_increment", nonnegative=True
 )
-"""What the finite element code knows, in MPa, mm/s and s."""
+"""The inputs from the finite element code, in MPa, mm/s and s."""
 
 _p, _V, _u_a, _u_c, _sigma_a, _sigma_c = symbols("p V u_a u_c sigma_a sigma_c")
 
 
 @dataclass(frozen=True)
 class Increment:
-    """``growth`` pairs each state variable with what the increment adds to it, in order."""
+    """The parameters of an increment, and pairs of a state variable and its growth, in order."""
 
     parameters: tuple[sp.Symbol, ...]
     growth: tuple[Assignment, ...]
 
 
 def increment(variant: Variant) -> Increment:
-    """Return what a time increment adds to the state of a variant, from (5).
+    """Return the growth of a variant's state in a time increment, from (5).
 
     >>> from derive.variant import VARIANTS
     >>> for name, value in increment(VARIANTS[0]).growth:
@@ -66,7 +66,7 @@ def increment(variant: Variant) -> Increment:
 
 
 def growth_of(name: str) -> sp.Symbol:
-    """Return the symbol of what a state variable gains."""
+    """Return the symbol of the growth of a state variable."""
     return sp.Symbol(f"growth_{name}", real=True)
 
 
@@ -79,4 +79,4 @@ def contact(variant: Variant) -> Function:
     """
     names, value, slope = law(variant)
     assignments, results = ((ratio, h / sigma), *names), (p_max * value, p_max * slope / sigma)
-    return made("contact_pressure", (h, sigma, p_max), assignments, *results)
+    return pruned("contact_pressure", (h, sigma, p_max), assignments, *results)

@@ -1,15 +1,15 @@
 """The forces of the pin: its reaction, the pressure under a given one, and the work of friction.
 
 Overview
-    Reaction and pressure are those of equation (7b).  Friction is Coulomb's: it takes the share mu
-    of the pressure along the way that the pin slides.
+    Reaction and pressure are those of equation (7b).  Friction is Coulomb's: the shear stress is
+    mu times the pressure, and it acts along the sliding distance of the pin.
 """
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ..note.governing import Model
+from ..note.governing import NoteModel
 from ..note.problems import problem_i
 from ..rules.algebra import Solve
 from ..symbols import symbol, symbols
@@ -19,15 +19,15 @@ pressure, given = sp.symbols("p R_a", real=True)
 """The contact pressure and the reaction as numbers."""
 
 mu, distance = sp.symbols("mu distance", nonnegative=True)
-"""The coefficient of friction and the way that the pin slides."""
+"""The coefficient of friction and the sliding distance of the pin."""
 
 
 def formulas() -> tuple[Formula, ...]:
     """Return the formulas of the forces of the pin."""
-    force = Solve(symbol("R_a"))(Model().reaction).claim.rhs.subs(symbol("p"), pressure)
+    force = Solve(symbol("R_a"))(NoteModel().reaction).claim.rhs.subs(symbol("p"), pressure)
     carried = problem_i[0].claim.rhs.subs(symbol("R_a"), given)
     width, length = symbols("b L")
-    slid = Model().slip.claim.rhs * symbol("T")
+    per_cycle = NoteModel().slip.claim.rhs * symbol("T")
     of_pressure = "derivative of the pressure with respect to"
     return (
         Formula("reaction", (pressure,), force, "reaction force of the pin, in N"),
@@ -35,7 +35,7 @@ def formulas() -> tuple[Formula, ...]:
         Formula("by_force", (), sp.diff(carried, given), f"{of_pressure} the reaction"),
         Formula("by_width", (given,), sp.diff(carried, width), f"{of_pressure} the width"),
         Formula("by_length", (given,), sp.diff(carried, length), f"{of_pressure} the length"),
-        Formula("sliding_distance", (), slid, "way that the pin slides in a cycle, in mm"),
+        Formula("sliding_distance", (), per_cycle, "sliding distance of a cycle, in mm"),
         Formula(
             "friction_work",
             (pressure, distance, mu),

@@ -2,7 +2,7 @@
 
 Key results
     source        the source of a program in one of the languages
-    definitions   the JavaScript functions of a program, to stand inside another script
+    definitions   the JavaScript functions of a program, for use inside another script
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 HEADER = "header"
-"""The declarations of the C source: a template of its own, in C's words."""
+"""The target of the C source's declarations, with the table of C."""
 WIDTH = 96
 WIDEST = 100
 
 
 class Line(NamedTuple):
-    """``name = text``, and what it means."""
+    """An assignment ``name = text`` with a remark on its meaning."""
 
     name: str
     text: str
@@ -40,7 +40,7 @@ class Line(NamedTuple):
 
 
 class Body(NamedTuple):
-    """A generated function in a language: its lines, its results, and the names that it ignores."""
+    """A generated function in a language: its lines, its results, and its unused arguments."""
 
     name: str
     meaning: str
@@ -50,8 +50,8 @@ class Body(NamedTuple):
     unused: tuple[str, ...]
 
 
-def source(made: Program, target: str) -> str:
-    """Return the free-standing source of a program: formatted, and the same at every call.
+def source(program: Program, target: str) -> str:
+    """Return the free-standing source of a program, formatted and deterministic.
 
     Raises
     ------
@@ -66,12 +66,12 @@ def source(made: Program, target: str) -> str:
     tables = {**TARGETS, HEADER: C}
     if target not in tables:
         raise ValueError(f"{target!r} is no target; there are {', '.join(tables)}")
-    return rendered(target, **_context(made, tables[target]))
+    return rendered(target, **_context(program, tables[target]))
 
 
-def definitions(made: Program) -> str:
+def definitions(program: Program) -> str:
     """Return the JavaScript of a program as the body of a function that returns its functions."""
-    return rendered("javascript", **_context(made, TARGETS["javascript"]) | {"within": True})
+    return rendered("javascript", **_context(program, TARGETS["javascript"]) | {"within": True})
 
 
 def rendered(template: str, **context: Any) -> str:
@@ -84,56 +84,56 @@ def _environment() -> Environment:
     """Return the templates; Jinja2 is imported when the first source is written."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=PackageLoader(__package__),
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
         undefined=StrictUndefined,
     )
-    made.filters |= {"remarked": remarked, "wrapped": wrapped, "called": called}
-    made.globals |= {"meaning_of": meaning_of, "sentence": sentence}
-    return made
+    environment.filters |= {"remarked": remarked, "wrapped": wrapped, "called": called}
+    environment.globals |= {"meaning_of": meaning_of, "sentence": sentence}
+    return environment
 
 
-def _context(made: Program, target: Target) -> dict[str, Any]:
-    """Return all that a template speaks of."""
-    variant = made.variant
-    functions = _functions(made, target)
+def _context(program: Program, target: Target) -> dict[str, Any]:
+    """Return the variables of a template."""
+    variant = program.variant
+    functions = _functions(program, target)
     expressions = [expression for f in functions for expression in f.expressions]
     return {
-        "made": made,
+        "program": program,
         "variant": variant,
-        "title": title_of(variant) if made.fields else margin_title(variant.pin),
-        "header": _header(made, target),
+        "title": title_of(variant) if program.fields else margin_title(variant.pin),
+        "header": _header(program, target),
         "spelt": target.rename,
-        "parameters": [parameter.name for parameter in made.parameters],
-        "constants": [name.name for name, _ in made.constants],
-        "computed": _computed(made, target),
-        "plain": [name.name for name, value in made.constants if name == value],
-        "functions": [body(function, made, target) for function in functions],
+        "parameters": [parameter.name for parameter in program.parameters],
+        "constants": [name.name for name, _ in program.constants],
+        "computed": _computed(program, target),
+        "plain": [name.name for name, value in program.constants if name == value],
+        "functions": [body(function, program, target) for function in functions],
         "minimum": any(expression.has(sp.Min) for expression in expressions),
         "maximum": any(expression.has(sp.Max) for expression in expressions),
         "increment": increment(variant),
-        "contact": body(contact(variant), made, target),
+        "contact": body(contact(variant), program, target),
         "emit": partial(emit, target=target),
         "within": False,
     }
 
 
-def _functions(made: Program, target: Target) -> tuple[Function, ...]:
-    """Return the functions that a language has."""
-    return made.array_functions if target is NUMPY else made.functions
+def _functions(program: Program, target: Target) -> tuple[Function, ...]:
+    """Return the functions that are written in a language."""
+    return program.array_functions if target is NUMPY else program.functions
 
 
-def body(function: Function, made: Program, target: Target) -> Body:
+def body(function: Function, program: Program, target: Target) -> Body:
     """Write a function's expressions in a target's language."""
     arguments = [argument.name for argument in function.arguments]
     local = {*arguments, *(name.name for name, _ in function.assignments)}
-    constants = {name.name for name, _ in made.constants} - local
-    within = _reaching(target, constants, target.constant)
-    if function.name == "parameter_gradient":  # from the constants back, within no run
-        within = _within_bind(made, target)
+    constants = {name.name for name, _ in program.constants} - local
+    within = _prefixing(target, constants, target.constant)
+    if function.name == "parameter_gradient":  # like ``bind``, it has no constants of a run
+        within = _within_bind(program, target)
     used = set().union(*(expression.free_symbols for expression in function.expressions))
     names = {symbol.name for symbol in used}
     unused = [name for name in arguments if name not in names]
@@ -151,44 +151,44 @@ def body(function: Function, made: Program, target: Target) -> Body:
 
 
 def _constant(result: sp.Expr) -> str:
-    """Write a number as one of the shape of the wear, anything else not at all."""
+    """Write a number as an array of the shape of the wear; return nothing for other results."""
     if not result.is_number:
         return ""
     return "0 * u" if result == 0 else f"{result} + 0 * u"
 
 
-def _within_bind(made: Program, target: Target) -> Target:
-    """Return a target that reaches parameters, and derivatives with respect to constants."""
-    parameters = {parameter.name for parameter in made.parameters}
-    derivatives = {by_constant(name.name).name: f"by.{name}" for name, _ in made.constants}
-    within = _reaching(target, parameters, target.parameter)
+def _within_bind(program: Program, target: Target) -> Target:
+    """Return a target with prefixes for parameters and derivatives with respect to constants."""
+    parameters = {parameter.name for parameter in program.parameters}
+    derivatives = {by_constant(name.name).name: f"by.{name}" for name, _ in program.constants}
+    within = _prefixing(target, parameters, target.parameter)
     return replace(within, rename=lambda name: derivatives.get(name) or within.rename(name))
 
 
-def _computed(made: Program, target: Target) -> list[Line]:
-    """Write the constants that are computed, in the language of ``bind``."""
-    within = _within_bind(made, target)
+def _computed(program: Program, target: Target) -> list[Line]:
+    """Write the assignments of the computed constants, as ``bind`` contains them."""
+    within = _within_bind(program, target)
     return [
         Line(target.rename(name.name), emit(value, within), "")
-        for name, value in made.constants
+        for name, value in program.constants
         if name != value
     ]
 
 
-def _reaching(target: Target, names: set[str], prefixed: str) -> Target:
-    """Return a target in which some names are reached through a prefix."""
+def _prefixing(target: Target, names: set[str], form: str) -> Target:
+    """Return a target that writes some names in a form such as ``c.{}``."""
 
-    def reached(name: str) -> str:
-        return prefixed.format(name) if name in names else target.rename(name)
+    def rename(name: str) -> str:
+        return form.format(name) if name in names else target.rename(name)
 
-    return replace(target, rename=reached)
+    return replace(target, rename=rename)
 
 
-def _header(made: Program, target: Target) -> list[str]:
-    """Return the lines that open a source: what it is, whence, its units and its cost."""
-    variant = made.variant
+def _header(program: Program, target: Target) -> list[str]:
+    """Return the opening lines of a source: title, origin, units and cost."""
+    variant = program.variant
     equations = ", ".join(f"({identifier})" for identifier in variant.equations)
-    cost = ", ".join(f"{f.name} {f.operations}" for f in _functions(made, target))
+    cost = ", ".join(f"{f.name} {f.operations}" for f in _functions(program, target))
     paragraphs = [
         title_of(variant),
         f"Written by derive code from equations {equations}; contact law: {variant.law.source}.",
@@ -208,7 +208,7 @@ def _header(made: Program, target: Target) -> list[str]:
 
 
 def remarked(code: str, remark: str, form: str) -> str:
-    """Put a comment beside a line of code, or above it where it finds no room.
+    """Put a comment beside a line of code, or above it where the line would be too long.
 
     >>> remarked("    h = 1;", "closure", "// {}")
     '    h = 1; // closure'
@@ -226,9 +226,9 @@ def wrapped(text: str, width: int, indent: str = "", end: str = "") -> str:
 
 
 def called(entries: Sequence[str], opening: str, closing: str, explode: bool = False) -> str:
-    """Write a bracket with its entries as Ruff lays it out: in a line, below it, or one a line.
+    """Write a bracket with its entries in Ruff's layout: on its line, on the next, or one a line.
 
-    ``explode`` leaves out the second, as for tuples and dictionaries.
+    ``explode`` excludes the second layout, as Ruff does for tuples and dictionaries.
 
     >>> print(called(["a", "b"], "f(", ")"))
     f(a, b)

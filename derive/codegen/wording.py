@@ -1,11 +1,11 @@
-"""Words of the generated sources: what a variant is, and what each name stands for.
+"""Words of the generated sources: titles of variants and meanings of names.
 
 Key results
     title_of      a variant in a sentence
     margin_title  the functions that loss of contact adds, in a sentence
     sentence      words with a capital
     meaning_of    a parameter, constant or field, with its unit
-    remark_on     an intermediate of a function, with the equation it comes from
+    remark_on     an intermediate of a function, with its equation
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _CONSTANTS = {
     "slope_a": "roughness of the pin per wear of the bearing",
     "compliance": "deflection of the support per pressure, mm/MPa",
     "most_of_margin": "fresh_margin less one roughness, mm",
-    "fresh_margin": "3 sigma - h before any wear or load, mm",
+    "fresh_margin": "3 sigma - h without wear and load, mm",
     "most_of_gain": "margin_gain less one roughness growth",
     "margin_gain": "3 sigma - h per wear of the bearing, undeflected",
     "pin_wear_sign": "+1 where wear of the pin opens the gap, -1 where it closes it",
@@ -52,7 +52,7 @@ _INTERMEDIATES = {
 
 
 def title_of(variant: Variant) -> str:
-    """Return what a variant models, as a sentence.
+    """Return a sentence on the law, the support and the pin of a variant.
 
     >>> from derive.variant import VARIANTS
     >>> title_of(VARIANTS[0])
@@ -74,7 +74,7 @@ def margin_title(pin: Pin) -> str:
 
 
 def sentence(words: str) -> str:
-    """Return words with a capital.
+    """Return words that begin with a capital letter.
 
     >>> sentence("closure, mm")
     'Closure, mm'
@@ -95,7 +95,7 @@ def meaning_of(name: str) -> str:
 
 
 def remark_on(name: str) -> str:
-    """Return what an intermediate is, and from which equation it comes.
+    """Return the meaning of an intermediate and its equation.
 
     >>> remark_on("sigma"), remark_on("ratio_u")
     ('equivalent roughness, (3)', 'd ratio/d u_c')

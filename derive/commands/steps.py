@@ -44,13 +44,13 @@ def execute(options: Options) -> Answer:
 def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
     import sympy as sp
 
-    from derive.check import checks
+    from derive.check import step_checks
     from derive.coq.steps import proved_by_coq
     from derive.kernel import identity
     from derive.typeset.display import latex
 
     parents = [numbers[identity(parent)] for parent in step.parents]
-    outcomes = checks(step)
+    outcomes = step_checks(step)
     return {
         "step": numbers[identity(step)],
         "name": step.name or None,

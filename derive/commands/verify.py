@@ -16,7 +16,7 @@ from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
-    from derive.verification import Verdict
+    from derive.verification import EquationVerdict
 
 
 def add_arguments(parser: Parser) -> None:
@@ -48,7 +48,7 @@ def execute(options: Options) -> Answer:
     return Answer(document, lambda: "\n".join(_lines(verdicts)), status=status)
 
 
-def _lines(verdicts: Sequence[Verdict]) -> Iterator[str]:
+def _lines(verdicts: Sequence[EquationVerdict]) -> Iterator[str]:
     """Yield an equation a line, and what came of all."""
     width = max(len(verdict.id) for verdict in verdicts)
     for verdict in verdicts:

@@ -28,7 +28,7 @@ from ..typeset.present import presentable
 from ..verification import verify
 from ..zero import is_zero
 from .claims import Finding, Verdict
-from .governing import Model
+from .governing import NoteModel
 from .problems import problem_ii, undetermined
 from .stabilised import asymptote, constant_bracket, wear_per_cycle
 
@@ -72,7 +72,7 @@ def _equations(*ids: str) -> Callable[[], Finding]:
 
 def closure_sign() -> Finding:
     """C1: what wear of the pin does to the gap."""
-    model = Model()
+    model = NoteModel()
     slope = sp.diff(model.closure.claim.rhs, u_a)
     grows = sign(model.wear_laws[0].claim.rhs, _PRESSED)
     evidence = f"dh/du_a = {slope} while (5) gives du_a/dt > 0: wear closes the gap"
@@ -82,7 +82,7 @@ def closure_sign() -> Finding:
 def regularity() -> Finding:
     """C4: the pressure at the edge of contact."""
     jump = float(TANH.ratio(TANH.cutoff))
-    drops = Model().pressure.claim != Model().pressure_with_cutoff.claim
+    drops = NoteModel().pressure.claim != NoteModel().pressure_with_cutoff.claim
     evidence = f"at h = 3 sigma the pressure jumps by {jump:.7f} p_max; (7e) has no cutoff"
     return _finding(jump <= 0 or not drops, evidence, Verdict.INCONSISTENT)
 
@@ -96,8 +96,8 @@ def below_maximum() -> Finding:
 
 def increasing() -> Finding:
     """C6: both wear rates are positive while there is pressure."""
-    rates = [Model().wear_laws[i].claim.rhs for i in (0, 2)]
-    starts = [Model().start[i].claim.rhs for i in (1, 2)]
+    rates = [NoteModel().wear_laws[i].claim.rhs for i in (0, 2)]
+    starts = [NoteModel().start[i].claim.rhs for i in (1, 2)]
     good = all(sign(value, _PRESSED) == 1 for value in rates) and starts == [0, 0]
     evidence = "both rates of (5) are positive for p > 0, and both depths start at 0"
     return _finding(good, evidence)
@@ -106,7 +106,7 @@ def increasing() -> Finding:
 def positive_roughness() -> Finding:
     """C7: where the roughness of the bearing vanishes."""
     decline = sp.Symbol("|f_c|", positive=True)
-    value = Model().roughness_of_bearing.claim.rhs.subs(f_c, -decline)
+    value = NoteModel().roughness_of_bearing.claim.rhs.subs(f_c, -decline)
     (zero,) = sp.solve(value, u_c)
     evidence = f"for f_c < 0 the roughness of (5), (6) vanishes at u_c = {zero}"
     return _finding(not zero.is_positive, evidence, Verdict.INCONSISTENT)
@@ -114,7 +114,7 @@ def positive_roughness() -> Finding:
 
 def initial_state() -> Finding:
     """C8: h(0) = h_0 against (1) and (2)."""
-    model = Model()
+    model = NoteModel()
     start = dict.fromkeys((u_a, u_c), 0)
     gap = model.closure.claim.rhs.subs(start) - h_0
     gap = gap.subs(U_c, Solve(U_c)(model.support).claim.rhs)
@@ -156,7 +156,7 @@ def stiff_limit() -> Finding:
 
 def deflection() -> Finding:
     """C15: p/k for k to infinity at bounded p."""
-    value = sp.limit(Solve(U_c)(Model().support).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
+    value = sp.limit(Solve(U_c)(NoteModel().support).claim.rhs.subs(p, sp.Symbol("p")), k, sp.oo)
     return _finding(value == 0, f"U_c = p/k with 0 < p < p_max tends to {value}")
 
 

@@ -5,10 +5,10 @@ Overview
     for the bearing wear u_c: implicit in the rate when the support is compliant, explicit in
     the limit of a rigid one.
 Key results
-    Condensed.implicit       (8), first line
-    Condensed.scalar         (8) with u_a eliminated as well: Q of (9)
-    Condensed.rigid          (10), the limit k -> oo of (8), taken by the machine
-    Condensed.rigid_condensed (13), for a smooth pin that does not wear
+    CondensedProblem.implicit       (8), first line
+    CondensedProblem.scalar         (8) with u_a eliminated as well: Q of (9)
+    CondensedProblem.rigid          (10), the limit k -> oo of (8), taken by the machine
+    CondensedProblem.rigid_condensed (13), for a smooth pin that does not wear
     condensed                any of these problems, each derived once
     bearing_only, two_solids  those that all results rest on
 """
@@ -24,14 +24,14 @@ from ..laws import TANH, ContactLaw
 from ..rules.algebra import Solve, substitute
 from ..rules.calculus import rigid
 from ..symbols import symbols
-from .governing import Model, Pin
+from .governing import NoteModel, Pin
 
 U_c, u_a = symbols("U_c u_a")
 (p,) = symbols("p")
 
 
 @dataclass(frozen=True)
-class Condensed(Model):
+class CondensedProblem(NoteModel):
     """The model, with all but the wear eliminated."""
 
     @cached_property
@@ -82,23 +82,23 @@ class Condensed(Model):
         return condensed.named("condensed problem, rigid support")
 
 
-condensed = cache(Condensed)
+condensed = cache(CondensedProblem)
 
 
 """The problem of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
 
 
-def bearing_only(law: ContactLaw = TANH) -> Condensed:
+def bearing_only(law: ContactLaw = TANH) -> CondensedProblem:
     """Return the problem of a pin that is smooth and does not wear: section 4."""
     return condensed(law, False, Pin.ABSENT)
 
 
-def two_solids(law: ContactLaw = TANH, opening: bool = False) -> Condensed:
+def two_solids(law: ContactLaw = TANH, opening: bool = False) -> CondensedProblem:
     """Return the problem of two worn, rough solids: section 3."""
     return condensed(law, opening, Pin.WORN_ROUGH)
 
 
-def results(two: Condensed) -> dict[str, Proved]:
+def results(two: CondensedProblem) -> dict[str, Proved]:
     """Return equations (8) to (10) and (13) of two worn, rough solids."""
     one, start = replace(two, pin=Pin.ABSENT), two.start[1]
     return {

@@ -4,13 +4,13 @@ Overview
     Two rigid solids, a rotating pin and a bearing on springs, are in contact and wear.  The
     hypotheses (1) to (6) are stated here as the note states them; (7) follows from them.
 Key results
-    Model               the hypotheses, for a contact law, a sign of pin wear and a kind of pin
+    NoteModel               the hypotheses, for a contact law, a sign of pin wear and a kind of pin
     pressure_in_contact (7e) where the cutoff in the text under (4) allows contact
     wear_of_pin, roughness_of_pin, roughness_of_bearing   (5) integrated from (6)
 Remarks
     The note stops using the cutoff h <= 3 sigma after (4); from (7e) on its law holds at every
-    closure.  Both readings are followed: ``Model.pressure`` is the law at every closure, which
-    (8) to (22) rest on, ``Model.pressure_with_cutoff`` the text under (4).
+    closure.  Both readings are followed: ``NoteModel.pressure`` is the law at every closure, which
+    (8) to (22) rest on, ``NoteModel.pressure_with_cutoff`` the text under (4).
     With (5), Eq. (1) as printed lets wear of the pin *close* the gap; ``opening=True`` is the
     physical sign.
 """
@@ -66,7 +66,7 @@ class Pin(StrEnum):
 
 
 @dataclass(frozen=True)
-class Model:
+class NoteModel:
     """The hypotheses of section 2 for one contact law, one sign of pin wear, one kind of pin."""
 
     law: ContactLaw = TANH
@@ -182,7 +182,7 @@ class Model:
         return substitute(*map(equation, model.SLIP))
 
 
-def results(model: Model) -> dict[str, Proved]:
+def results(model: NoteModel) -> dict[str, Proved]:
     """Return equations (1) to (7g) of a model."""
     return {
         "1": model.closure,

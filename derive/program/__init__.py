@@ -1,9 +1,9 @@
-"""Programs: what a variant computes, as short lists of named assignments.
+"""Programs: the computation of a variant, as short lists of named assignments.
 
 Overview
     The derived relations of a variant (closure, roughness, pressure at given wear) become
-    functions of numbers.  Intermediates keep the names of the field.  What does not change
-    during a run is hoisted into named constants.
+    functions of numbers.  Intermediates keep the names of the field.  Expressions that do not
+    change during a run are hoisted into named constants.
 Key results
     Program          functions and constants of a source
     program          the program of a variant
@@ -32,12 +32,12 @@ from .symbols import pin_wear_sign
 
 @dataclass(frozen=True)
 class Program:
-    """All that is written in one source.
+    """The content of one source.
 
     ``constants`` are computed once, by ``bind``, from ``parameters`` and, where the pin wears,
     the sign of its wear; ``fields`` names the results of the function of that name, if there is
     one.  ``joint_functions`` have several results each and are written for NumPy alone, where
-    that of rate and slope takes the place of the slope's.
+    the function of rate and slope replaces that of the slope.
     """
 
     variant: Variant
@@ -49,7 +49,7 @@ class Program:
 
     @property
     def equations(self) -> tuple[str, ...]:
-        """Return the ids of the equations that the code comes from."""
+        """Return the ids of the underlying equations."""
         return self.variant.equations if self.fields else ("1", "3", "5", "6")
 
     @property
@@ -59,20 +59,20 @@ class Program:
 
     @property
     def operations(self) -> dict[str, int]:
-        """Return how many arithmetic operations one call of each function costs."""
+        """Return the number of arithmetic operations of one call of each function."""
         return {function.name: function.operations for function in self.array_functions}
 
     @property
     def array_functions(self) -> tuple[Function, ...]:
         """Return the functions that are written in NumPy."""
         joint = {function.name for function in self.joint_functions}
-        left_out = {"slope"} if "rate_and_slope" in joint else set()
-        return (*(f for f in self.functions if f.name not in left_out), *self.joint_functions)
+        replaced = {"slope"} if "rate_and_slope" in joint else set()
+        return (*(f for f in self.functions if f.name not in replaced), *self.joint_functions)
 
 
 @cache
 def program(variant: Variant) -> Program:
-    """Return the program of a variant, complete in itself."""
+    """Return the complete program of a variant."""
     relations = Relations(variant)
     functions = parts.rigid(relations)
     if variant.compliant:
@@ -83,28 +83,28 @@ def program(variant: Variant) -> Program:
         functions += parts.limited() if variant.compliant else ()
         hoisted += parts.constants(relations)
     functions += (parts.fields(relations),)
-    made = _program(variant, hoisted, functions, parts.field_names(variant))
+    plain = _program(variant, hoisted, functions, parts.field_names(variant))
     pair = () if variant.compliant else (parts.rate_and_slope(*functions[:2]),)
     gradients = (
-        gradient.rate_gradient(relations, [name for name, _ in made.constants]),
-        gradient.parameter_gradient(made.constants, made.parameters),
+        gradient.rate_gradient(relations, [name for name, _ in plain.constants]),
+        gradient.parameter_gradient(plain.constants, plain.parameters),
     )
-    return replace(made, joint_functions=(*pair, *gradients))
+    return replace(plain, joint_functions=(*pair, *gradients))
 
 
 @cache
 def margin_program(pin: Pin) -> Program:
-    """Return what loss of contact adds: no law and no support takes part in it."""
+    """Return the functions that loss of contact adds; they depend on neither law nor support."""
     relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
     hoisted = (*groups(relations.variant), *parts.constants(relations))
     functions = (*parts.margin(relations), *parts.limited())
-    made = _program(relations.variant, hoisted, functions)
-    names = [name for name, _ in made.constants]
+    plain = _program(relations.variant, hoisted, functions)
+    names = [name for name, _ in plain.constants]
     gradients = (
         gradient.margin_gradient(parts.margin(relations)[0], names),
-        gradient.parameter_gradient(made.constants, made.parameters),
+        gradient.parameter_gradient(plain.constants, plain.parameters),
     )
-    return replace(made, joint_functions=gradients)
+    return replace(plain, joint_functions=gradients)
 
 
 def _program(
@@ -113,7 +113,7 @@ def _program(
     functions: tuple[Function, ...],
     names: tuple[str, ...] = (),
 ) -> Program:
-    """Hoist the constants that the functions use; the parameters are those of the constants."""
+    """Hoist the constants of the functions; the parameters are the symbols that these need."""
     constants = _constants(hoisted, functions)
     used = set().union(*(expr.free_symbols for _, expr in constants))
     parameters = used - {name for name, _ in hoisted} - {pin_wear_sign}
@@ -123,7 +123,7 @@ def _program(
 def _constants(
     hoisted: Sequence[Assignment], functions: Sequence[Function]
 ) -> tuple[Assignment, ...]:
-    """Return the constants that the functions use: parameters as they are, then hoisted ones."""
+    """Return the constants that the functions use: plain parameters, then hoisted expressions."""
     used = set().union(*(function.free_symbols for function in functions))
     named = {name for name, _ in hoisted}
     needed = used & named

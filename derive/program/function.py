@@ -1,9 +1,9 @@
 """Generated functions: a short list of named assignments, and results in terms of them.
 
 Key results
-    Assignment  a name and what it stands for
+    Assignment  a name and its value
     Function    arguments, assignments, results
-    made        a function with no more assignments than it needs
+    pruned      a function without the assignments that its results do not need
     with_slopes assignments, each followed by that of its derivative with respect to the wear
 """
 
@@ -22,9 +22,9 @@ MEANINGS = {
     "rate": "wear rate of the bearing, du_c/dt, in mm/s",
     "slope": "derivative of the wear rate with respect to u_c, in 1/s",
     "rate_and_slope": "wear rate in mm/s and its derivative with respect to u_c in 1/s",
-    "residual": "what the contact pressure p must make zero, in MPa",
+    "residual": "residual of the equation for the contact pressure p, in MPa",
     "undeflected": "closure over roughness with an undeflected support",
-    "softness": "roughnesses that the support gives way per pressure, in 1/MPa",
+    "softness": "deflection of the support per pressure, over the roughness, in 1/MPa",
     "start": "estimate of the pressure with the support, in MPa",
     "lower": "a pressure below that with the support, in MPa",
     "upper": "a pressure above that with the support, in MPa",
@@ -32,15 +32,15 @@ MEANINGS = {
     "fields": "every field at given wear and load, in mm and MPa",
     "margin": "3 sigma - h with an undeflected support, in mm: contact where it is not negative",
     "margin_slope": "derivative of the margin with respect to u_c; with respect to U_a it is 1",
-    "margin_terms": "sum of the absolute terms of the margin, in mm: known to as many roundoffs",
-    "limited_pressure": "contact pressure in MPa: root of the residual, or what keeps h at 3 sigma",
+    "margin_terms": "sum of the absolute terms of the margin, in mm, the scale of its rounding",
+    "limited_pressure": "contact pressure in MPa: root of the residual, or that with h at 3 sigma",
     "limited_slope": "derivative of the wear rate with respect to u_c with h at 3 sigma, in 1/s",
     "rate_gradient": "derivatives of the wear rate with respect to U_a and to the constants",
     "margin_gradient": "derivatives of the margin with respect to the constants; to U_a it is 1",
-    "parameter_gradient": "derivatives with respect to the parameters, from those to the constants",
+    "parameter_gradient": "derivatives with respect to the parameters, from those by the constants",
     "contact_pressure": "contact pressure in MPa at closure and roughness in mm, and its slope",
 }
-"""What a function returns, by its name."""
+"""The results of functions, by name."""
 
 
 @dataclass(frozen=True)
@@ -54,33 +54,33 @@ class Function:
 
     @property
     def meaning(self) -> str:
-        """Return what it returns, in words."""
+        """Return a description of the results."""
         return MEANINGS[self.name]
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Return all that one call computes, in order."""
+        """Return the expressions that one call evaluates, in order."""
         return (*(value for _, value in self.assignments), *self.results)
 
     @property
     def free_symbols(self) -> set[sp.Symbol]:
-        """Return what the function uses without computing it or taking it as an argument."""
+        """Return the symbols that are neither arguments nor assigned."""
         used = set().union(*(expr.free_symbols for expr in self.expressions))
         return used - {name for name, _ in self.assignments} - set(self.arguments)
 
     @property
     def operations(self) -> int:
-        """Return how many arithmetic operations one call costs, functions counted as one."""
+        """Return the number of operations of one call, functions counted as one."""
         return sum(int(expr.count_ops()) for expr in self.expressions)
 
 
-def made(
+def pruned(
     name: str,
     arguments: tuple[sp.Symbol, ...],
     assignments: Sequence[Assignment],
     *results: sp.Expr,
 ) -> Function:
-    """Return a function, without the assignments that its results do not need."""
+    """Return a function without the assignments that its results do not need."""
     needed = set().union(*(result.free_symbols for result in results))
     kept: list[Assignment] = []
     for symbol, value in reversed(assignments):
@@ -93,21 +93,21 @@ def made(
 def with_slopes(
     assignments: Iterable[Assignment],
 ) -> tuple[tuple[Assignment, ...], dict[sp.Symbol, sp.Expr]]:
-    """Follow each assignment by that of its derivative with respect to u, where it has one.
+    """Return assignments, each followed by that of its derivative with respect to u, and slopes.
 
-    The slopes by name of what they are the slope of are returned too; zero ones are left out.
+    The slopes are those of the assigned names, by name; zero ones are left out.
     """
-    made: list[Assignment] = []
+    result: list[Assignment] = []
     slopes: dict[sp.Symbol, sp.Expr] = {}
     for name, expr in assignments:
-        made.append((name, expr))
+        result.append((name, expr))
         slope = reusing(_total(expr, slopes), name, expr)
         if slope == 0:
             continue
         slopes[name] = slope if slope.is_Atom else number(f"{name}_u")
         if not slope.is_Atom:
-            made.append((slopes[name], slope))
-    return tuple(made), slopes
+            result.append((slopes[name], slope))
+    return tuple(result), slopes
 
 
 def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
@@ -117,7 +117,7 @@ def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
 
 
 def reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:
-    """Write the slope of a root or a quotient with the name that this has already."""
+    """Write the slope of a root or a quotient in terms of the name of its value."""
     root = expr.is_Pow and expr.exp == sp.Rational(1, 2)
     quotient = expr.is_Mul and not expr.as_numer_denom()[1].is_number
     return sp.factor_terms(slope.subs(expr, name) if root or quotient else slope)

@@ -1,11 +1,11 @@
 """The functions of a program: wear rate, fields, and the condition of contact.
 
 Overview
-    With a rigid support the rate is explicit, with a compliant one it goes through the pressure.
-    The margin of contact, 3 sigma - h, depends on the pin alone: neither the contact law nor the
-    support takes part.  With one rough surface it is linear in the wear, and computed from where it
-    starts and how it grows: roughness and closure grow with the wear, and their difference would
-    be lost.
+    With a rigid support the rate is explicit, with a compliant one it is a function of the
+    pressure.  The margin of contact, 3 sigma - h, depends neither on the contact law nor on the
+    support.  With one rough surface it is linear in the wear, and computed from its initial value
+    and its growth: roughness and closure grow with the wear, and their difference would lose all
+    digits.
 Key results
     law             the contact law at ``ratio``, in a form to compute with
     to_ratio        the assignments that lead to ``ratio``
@@ -14,8 +14,8 @@ Key results
     compliant       rate and slope at the pressure with a compliant support
     fields          every field at given wear and load
     constants       start and growth of a linear margin, named
-    margin          3 sigma - h with an undeflected support, its slope, the terms it is made of
-    limited         the pressure of a compliant support, which lets go as far as to h = 3 sigma
+    margin          3 sigma - h with an undeflected support, its slope, the size of its terms
+    limited         the pressure on a compliant support, which relaxes no further than h = 3 sigma
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ..laws import r
 from ..note.governing import Pin
 from ..symbols import symbol
 from ..variant import Variant
-from .function import Assignment, Function, made, with_slopes
+from .function import Assignment, Function, pruned, with_slopes
 from .relations import Relations
 from .symbols import (
     compliance,
@@ -70,15 +70,15 @@ def rigid(relations: Relations) -> tuple[Function, ...]:
     assignments = (*sloped, *names)
     rate, change = largest_rate * value, largest_rate * slope * slopes[ratio]
     return (
-        made("rate", (u, load), assignments, rate),
-        made("slope", (u, load), assignments, change),
+        pruned("rate", (u, load), assignments, rate),
+        pruned("slope", (u, load), assignments, change),
     )
 
 
 def rate_and_slope(rate: Function, slope: Function) -> Function:
-    """Return the rate and its slope at the cost of little more than one."""
+    """Return the function of rate and slope together, which costs little more than one."""
     assignments = tuple(dict.fromkeys((*slope.assignments, *rate.assignments)))
-    return made("rate_and_slope", rate.arguments, assignments, *rate.results, *slope.results)
+    return pruned("rate_and_slope", rate.arguments, assignments, *rate.results, *slope.results)
 
 
 def compliant(relations: Relations) -> tuple[Function, ...]:
@@ -88,14 +88,14 @@ def compliant(relations: Relations) -> tuple[Function, ...]:
     stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
     change = wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0]
     return (
-        made("rate", (pressure,), (), wear_per_pressure * pressure),
-        made("slope", (pressure, u, load), (*sloped, *names, stiffening), change),
+        pruned("rate", (pressure,), (), wear_per_pressure * pressure),
+        pruned("slope", (pressure, u, load), (*sloped, *names, stiffening), change),
     )
 
 
 def field_names(variant: Variant) -> tuple[str, ...]:
     """Return the fields of a variant, by name, in order."""
-    own = {
+    presence = {
         "u_a": variant.pin.wears,
         "sigma_a": variant.pin.rough,
         "sigma_c": True,
@@ -104,11 +104,11 @@ def field_names(variant: Variant) -> tuple[str, ...]:
         "U_c": variant.compliant,
         "p": True,
     }
-    return tuple(name for name, present in own.items() if present)
+    return tuple(name for name, present in presence.items() if present)
 
 
 def fields(relations: Relations) -> Function:
-    """Return the function that gives every field."""
+    """Return the function of all fields."""
     variant = relations.variant
     intermediates, value, _ = law(variant)
     assignments = (*to_ratio(relations, deflected=variant.compliant), *intermediates)
@@ -124,11 +124,12 @@ def fields(relations: Relations) -> Function:
         "p": pressure if variant.compliant else p_max * value,
     }
     arguments = (pressure, u, load) if variant.compliant else (u, load)
-    return made("fields", arguments, assignments, *(values[name] for name in field_names(variant)))
+    results = (values[name] for name in field_names(variant))
+    return pruned("fields", arguments, assignments, *results)
 
 
 def constants(relations: Relations) -> tuple[Assignment, ...]:
-    """Return start and growth of a margin that is linear in the wear, none of another.
+    """Return the initial value and growth of a linear margin; no constants for another.
 
     One roughness is added last: where 3 sigma and h are close, both steps are exact.
     """
@@ -150,25 +151,25 @@ def margin(relations: Relations) -> tuple[Function, ...]:
     assignments, value, slope = _margin(relations)
     terms = sp.Add.make_args(sp.expand(value.subs(dict([relations.closure(deflected=False)]))))
     return (
-        made("margin", (u, load), assignments, value),
-        made("margin_slope", (u,), assignments, slope),
-        made("margin_terms", (u, load), assignments, sp.Add(*map(sp.Abs, terms))),
+        pruned("margin", (u, load), assignments, value),
+        pruned("margin_slope", (u,), assignments, slope),
+        pruned("margin_terms", (u, load), assignments, sp.Add(*map(sp.Abs, terms))),
     )
 
 
 def limited() -> tuple[Function, ...]:
-    """Return the pressure of a compliant support that lets go no further than to h = 3 sigma, and
+    """Return the pressure on a compliant support that relaxes no further than h = 3 sigma, and
     the slope of the rate while h stays there."""
     held = sp.Min(pressure, sp.Max(0, value_of_margin / compliance))
     change = wear_per_pressure * slope_of_margin / compliance
     return (
-        made("limited_pressure", (pressure, value_of_margin, compliance), (), held),
-        made("limited_slope", (slope_of_margin, compliance, wear_per_pressure), (), change),
+        pruned("limited_pressure", (pressure, value_of_margin, compliance), (), held),
+        pruned("limited_slope", (slope_of_margin, compliance, wear_per_pressure), (), change),
     )
 
 
 def _margin(relations: Relations) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
-    """Return the margin, its derivative with respect to u, and what they are made of."""
+    """Return the assignments of the margin, its value and its derivative with respect to u."""
     if not relations.variant.pin.rough:
         return (), fresh_margin + margin_gain * u + load, margin_gain
     cutoff = relations.variant.law.cutoff

@@ -1,13 +1,13 @@
-"""Derivatives with respect to everything that a run depends on, from the result back to the data.
+"""Derivatives with respect to load, constants and parameters, by reverse accumulation.
 
 Overview
     The wear rate depends on the load and on the named constants of a run through h/sigma; the
-    constants depend on the physical parameters through ``bind``.  Both chains are run from their
-    end to their start, so that all derivatives together cost little more than one.
+    constants depend on the physical parameters through ``bind``.  The chain rule is applied from
+    the result back to the data, so that all derivatives together cost little more than one.
 Key results
     rate_gradient        of the rate, with respect to the load and to each constant
     margin_gradient      of the margin of contact, with respect to each constant
-    parameter_gradient   with respect to each parameter, from those with respect to the constants
+    parameter_gradient   with respect to each parameter, from the derivatives by the constants
 References
     Reverse accumulation: Griewank and Walther, Evaluating Derivatives (2008), chapter 3.
 """
@@ -18,7 +18,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from .function import Assignment, Function, made, reusing
+from .function import Assignment, Function, pruned, reusing
 from .functions import law, p_max, to_ratio
 from .relations import Relations
 from .symbols import compliance, largest_rate, load, number, pressure, ratio, sigma, u
@@ -45,55 +45,58 @@ def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Funct
     else:
         seed, totals = largest_rate * slope, {largest_rate: value}
     totals[ratio] = seed
-    back = _back(chain, totals, "rate_{}")
-    found = (totals.get(name, sp.Integer(0)) for name in (load, *constants))
+    sweep = _reverse_sweep(chain, totals, "rate_{}")
+    slopes = (totals.get(name, sp.Integer(0)) for name in (load, *constants))
     arguments = (pressure, u, load) if compliant else (u, load)
-    return made("rate_gradient", arguments, (*chain, *names, *back), *found)
+    return pruned("rate_gradient", arguments, (*chain, *names, *sweep), *slopes)
 
 
 def margin_gradient(margin: Function, constants: Sequence[sp.Symbol]) -> Function:
     """Return the derivatives of the margin with respect to each constant."""
-    whole = number("margin")
-    totals: Totals = {whole: sp.Integer(1)}
-    back = _back((*margin.assignments, (whole, margin.results[0])), totals, "margin_{}")
-    found = (totals.get(name, sp.Integer(0)) for name in constants)
-    return made("margin_gradient", margin.arguments, (*margin.assignments, *back), *found)
+    value = number("margin")
+    totals: Totals = {value: sp.Integer(1)}
+    chain = (*margin.assignments, (value, margin.results[0]))
+    sweep = _reverse_sweep(chain, totals, "margin_{}")
+    slopes = (totals.get(name, sp.Integer(0)) for name in constants)
+    return pruned("margin_gradient", margin.arguments, (*margin.assignments, *sweep), *slopes)
 
 
 def parameter_gradient(
     constants: Sequence[Assignment], parameters: Sequence[sp.Symbol]
 ) -> Function:
-    """Return the derivatives with respect to the parameters from those to the constants."""
+    """Return the derivatives with respect to the parameters, from those by the constants."""
     totals: Totals = {name: by_constant(name.name) for name, _ in constants}
     computed = [(name, value) for name, value in constants if name != value]
-    back = _back(computed, totals, "total_{}")
-    found = (totals[name] for name in parameters)
-    return made("parameter_gradient", (), (*computed, *back), *found)
+    sweep = _reverse_sweep(computed, totals, "total_{}")
+    slopes = (totals[name] for name in parameters)
+    return pruned("parameter_gradient", (), (*computed, *sweep), *slopes)
 
 
-def _back(chain: Sequence[Assignment], totals: Totals, named: str) -> tuple[Assignment, ...]:
-    """Take derivatives with respect to assigned names back to what these are made of.
+def _reverse_sweep(
+    chain: Sequence[Assignment], totals: Totals, form: str
+) -> tuple[Assignment, ...]:
+    """Replace derivatives by assigned names with those by the symbols of their expressions.
 
-    ``totals`` holds the derivatives by name and is brought to those of the beginning; returned are
-    the derivatives in between that deserve a name.
+    ``totals`` has the derivatives by name and is updated in place; returned are assignments of
+    intermediate derivatives, whose names have this form.
     """
-    between: list[Assignment] = []
+    intermediates: list[Assignment] = []
     for name, expr in reversed(chain):
         if name not in totals:
             continue
         total = totals.pop(name)
         if not total.is_Atom:
-            symbol = number(named.format(name.name))
-            between.append((symbol, sp.factor_terms(total)))
+            symbol = number(form.format(name.name))
+            intermediates.append((symbol, sp.factor_terms(total)))
             total = symbol
         for inner in sorted(expr.free_symbols, key=str):
             part = total * _partial(expr, inner, name)
             totals[inner] = totals.get(inner, sp.Integer(0)) + part
-    return tuple(between)
+    return tuple(intermediates)
 
 
 def _partial(expr: sp.Expr, inner: sp.Symbol, name: sp.Symbol) -> sp.Expr:
-    """Return d expr/d inner, of a power of a positive number as a quotient of what is known."""
+    """Return d expr/d inner, that of a power of a positive symbol as a multiple of name/inner."""
     slope = sp.diff(expr, inner)
     power = sp.cancel(slope * inner / expr)
     if inner.is_positive and power.is_number:

@@ -1,8 +1,8 @@
 """The derived relations of a variant, in the symbols of its program.
 
 Overview
-    The judgements of `derive.note` speak of functions of time.  Here they become assignments of
-    numbers, in which what does not change during a run stands as a named constant.
+    The judgements of `derive.note` are about functions of time.  Here they become assignments of
+    numbers, with named constants for the combinations that do not change during a run.
 Key results
     groups       the named constants of a run
     Relations    roughness, closure and wear of the pin, as assignments
@@ -34,16 +34,16 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     """Return the named constants of a run: each a combination of parameters."""
     model = variant.model
     archard = substitute(model.wear_laws[2], model.slip).claim.rhs / p
-    found: list[Assignment] = []
+    constants: list[Assignment] = []
     if variant.pin.wears:
-        found += [(kappa, _kappa().claim.rhs), (named.gain, 1 + named.pin_wear_sign * kappa)]
+        constants += [(kappa, _kappa().claim.rhs), (named.gain, 1 + named.pin_wear_sign * kappa)]
     if variant.pin is Pin.WORN_ROUGH:
-        found.append((named.slope_a, f_a * kappa))
+        constants.append((named.slope_a, f_a * kappa))
     if variant.compliant:
-        found += [(named.compliance, 1 / k), (named.wear_per_pressure, archard)]
+        constants += [(named.compliance, 1 / k), (named.wear_per_pressure, archard)]
     else:
-        found.append((named.largest_rate, archard * p_max))
-    return tuple(found)
+        constants.append((named.largest_rate, archard * p_max))
+    return tuple(constants)
 
 
 @cache
@@ -80,27 +80,28 @@ class Relations:
         rough = model.roughness_of_pin
         if pin.wears:
             rough = substitute(rough, self._wear_of_pin())
-        own = self._hoisted(_plain(rough.claim.rhs))
+        pin_roughness = self._hoisted(_plain(rough.claim.rhs))
         combined = _plain(model.roughness.claim.rhs)
         if pin.wears:
             return (
-                (named.sigma_a, own),
+                (named.sigma_a, pin_roughness),
                 (named.sigma_c, bearing),
                 (named.sigma, combined),
             )
-        return (named.sigma_c, bearing), (named.sigma, combined.subs(named.sigma_a, own))
+        combined = combined.subs(named.sigma_a, pin_roughness)
+        return (named.sigma_c, bearing), (named.sigma, combined)
 
     def closure(self, deflected: bool) -> Assignment:
         """Return the assignment of h; the undeflected one is that of a rigid support.
 
-        It is linear in the sign of pin wear, so that the closures of both signs determine it.
+        It is linear in the sign of pin wear, and determined by the closures for both signs.
         """
         opening, closing = (self._closure(sign, deflected) for sign in (True, False))
         either = (opening + closing) / 2 + named.pin_wear_sign * (opening - closing) / 2
         return named.h, self._hoisted(either).subs(1 / k, named.compliance)
 
     def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
-        """Return h where wear of the pin opens the gap, or where it closes it."""
+        """Return h for one sign of pin wear: opening or closing the gap."""
         model = condensed(self.variant.law, opening, self.variant.pin)
         deflection = model.deflection if deflected else assume(RIGID)
         return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
@@ -110,7 +111,7 @@ class Relations:
         return substitute(worn, Solve(K_a)(_kappa())) if self.variant.pin.wears else worn
 
     def _hoisted(self, expr: sp.Expr) -> sp.Expr:
-        """Write a polynomial in the state with named constants for its coefficients."""
+        """Write the coefficients of a polynomial in the state as named constants."""
         collected = sp.collect(sp.expand(expr), named.u)
         for name, value in groups(self.variant):
             if name is not kappa:

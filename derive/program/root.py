@@ -1,11 +1,11 @@
 """The functions of the equation for the pressure on a compliant support.
 
-At given wear and load the pressure p is the root of p = p_max phi(undeflected + softness p), with
-the ratio h/sigma of an undeflected support and the roughnesses that the support gives way per
-pressure.  The root lies between two known pressures: that with h/sigma at the inflection of the
-law, and that of the law at its inflection.  Between them the residual is curved one way, so that a
-step of Newton's iteration from anywhere in between ends on one side of the root, and the steps
-after it go towards the root and never beyond.  See `derive.results.pressure_root`.
+At given wear and load the pressure p is the root of p = p_max phi(undeflected + softness p):
+undeflected is h/sigma with an undeflected support, softness the deflection of the support per
+pressure, over sigma.  The root lies between two known pressures: that with h/sigma at the
+inflection of the law, and that of the law at its inflection.  Between them the curvature of the
+residual has one sign, so that the first Newton step from anywhere in between ends on a known side
+of the root, and the next ones converge monotonically.  See `derive.results.pressure_root`.
 
 Key results
     root    residual, undeflected, softness, start, lower, upper, newton
@@ -18,14 +18,14 @@ from functools import cache
 import sympy as sp
 
 from ..laws import ContactLaw, r
-from .function import Assignment, Function, made
+from .function import Assignment, Function, pruned
 from .functions import law, p_max, to_ratio
 from .relations import Relations
 from .symbols import compliance, h, load, number, pressure, ratio, sigma, u
 
 undeflected, softness = map(number, ("undeflected", "softness"))
-"""What the equation depends on: h/sigma with an undeflected support; the support's deflection per
-pressure, over sigma."""
+"""The parameters of the equation: h/sigma with an undeflected support; the support's deflection
+per pressure, over sigma."""
 
 rise, level, grown, height = map(number, ("rise", "level", "grown", "height"))
 
@@ -43,30 +43,30 @@ def root(relations: Relations) -> tuple[Function, ...]:
     )
     stepped = (p_max * value + rise * pressure) / (1 + rise)
     return (
-        made("residual", (pressure, u, load), law_at, pressure - p_max * value),
-        made("undeflected", (u, load), to_ratio(relations, deflected=False)[:-1], h / sigma),
-        made("softness", (u,), relations.roughnesses(), compliance / sigma),
+        pruned("residual", (pressure, u, load), law_at, pressure - p_max * value),
+        pruned("undeflected", (u, load), to_ratio(relations, deflected=False)[:-1], h / sigma),
+        pruned("softness", (u,), relations.roughnesses(), compliance / sigma),
         _start(relations.variant.law),
-        made("lower", of_equation, (), sp.Max(0, sp.Min(*edge))),
-        made("upper", of_equation, (), sp.Max(*edge)),
-        made("newton", (pressure, *of_equation), step, stepped),
+        pruned("lower", of_equation, (), sp.Max(0, sp.Min(*edge))),
+        pruned("upper", of_equation, (), sp.Max(*edge)),
+        pruned("newton", (pressure, *of_equation), step, stepped),
     )
 
 
 def _edge(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
-    """Return two pressures between which the root lies and the law is curved one way.
+    """Return two pressures that enclose the root, between which the law has no inflection.
 
-    Any ratio will do for a law that is convex everywhere.
+    For a law that is convex everywhere any ratio serves.
     """
     at = law.inflection if law.inflection.is_finite else sp.Integer(0)
     return (at - undeflected) / softness, p_max * law.ratio(at)
 
 
 def _start(of: ContactLaw) -> Function:
-    """Return an estimate of the root, near it if the law falls exponentially.
+    """Return an estimate of the root, close to it if the law decays exponentially.
 
     With phi = A exp(-m r) the root is W(z)/(m softness), z = A m softness p_max exp(-m undeflected)
-    and W of Lambert, which w (1 - ln(1 + w)/(2 + w)) with w = ln(1 + z) equals to a few percent.
+    and Lambert's W, which w (1 - ln(1 + w)/(2 + w)) with w = ln(1 + z) equals to a few percent.
     """
     names: tuple[Assignment, ...] = ()
     amplitude, steepness = tail(of)
@@ -80,7 +80,7 @@ def _start(of: ContactLaw) -> Function:
             (height, sp.Max(level, 0) + sp.log(grown)),
         )
         estimate = height * (1 - sp.log(1 + height) / (2 + height)) / (steepness * softness)
-    return made("start", (undeflected, softness), names, estimate)
+    return pruned("start", (undeflected, softness), names, estimate)
 
 
 @cache

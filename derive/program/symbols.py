@@ -19,12 +19,12 @@ sigma_a, sigma_c, sigma, h, ratio = map(number, ("sigma_a", "sigma_c", "sigma", 
 largest_rate, wear_per_pressure, gain, slope_a, compliance = map(
     number, ("largest_rate", "wear_per_pressure", "gain", "slope_a", "compliance")
 )
-"""What is hoisted out of a run."""
+"""Constants that are hoisted out of a run."""
 
 most_of_margin, fresh_margin, most_of_gain, margin_gain = map(
     number, ("most_of_margin", "fresh_margin", "most_of_gain", "margin_gain")
 )
-"""A margin of contact that is linear in the wear: where it starts and how it grows."""
+"""The initial value and the growth of a margin of contact that is linear in the wear."""
 
 pin_wear_sign = number("pin_wear_sign")
 """+1 where wear of the pin opens the gap, -1 where it closes it, as printed in (1)."""

@@ -29,8 +29,8 @@ import sympy as sp
 from ..hypotheses import BOUNDED_LOAD, PERIODIC, ROUGH_BEARING, ROUGHENING
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
-from ..note.condensed import Condensed, bearing_only
-from ..note.governing import Model
+from ..note.condensed import CondensedProblem, bearing_only
+from ..note.governing import NoteModel
 from ..rules.algebra import Consequence, Identity, Insert, discharge
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
@@ -49,7 +49,7 @@ excess = sigma_c0 / f_c - h_0 + U_a
 """Distance of the load from the one at which the rate would be steady at once."""
 
 
-def worn(model: Model) -> Judgement:
+def worn(model: NoteModel) -> Judgement:
     """Return that the wear of the bearing never falls below zero: its rate is positive."""
     positive = Arithmetic(sp.Ge(rate("u_c"), 0))(model.wear_laws[2])
     return grows(positive, model.start[1], name="wear increases")
@@ -65,7 +65,7 @@ class SteadyState:
     bound: ClassVar[sp.Expr] = sigma_c0 / f_c + h_0 + U
 
     @property
-    def model(self) -> Condensed:
+    def model(self) -> CondensedProblem:
         """Bearing wear only, as in section 4."""
         return bearing_only(self.law)
 

@@ -9,7 +9,7 @@ from derive import verification
 from derive.note import claim_checks
 from derive.note.claim_checks import SYMBOLIC
 from derive.note.claims import CLAIMS, Verdict
-from derive.note.governing import Model
+from derive.note.governing import NoteModel
 from derive.symbols import symbol
 from tests.references import VERDICTS
 
@@ -18,7 +18,7 @@ from tests.references import VERDICTS
 def proofs_alone():
     """Models try the equations in `test_derivation`, and each step in `derive verify`."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verification, "on_models", lambda _: ())
+        patch.setattr(verification, "model_checks", lambda _: ())
         claim_checks._holds.cache_clear()
         yield
     claim_checks._holds.cache_clear()
@@ -37,7 +37,7 @@ def test_the_claims_stand_in_the_order_of_the_note() -> None:
 
 
 def test_the_physical_sign_would_be_consistent(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(claim_checks, "Model", lambda: Model(opening=True))
+    monkeypatch.setattr(claim_checks, "NoteModel", lambda: NoteModel(opening=True))
     assert claim_checks.closure_sign().verdict is Verdict.CONFIRMED
 
 

@@ -16,7 +16,7 @@ from derive import generate
 from derive.codegen.sources import source
 from derive.faults import UsageError
 from derive.laws import LAWS, ContactLaw, r
-from derive.note.condensed import Condensed
+from derive.note.condensed import CondensedProblem
 from derive.note.governing import Pin
 from derive.program import margin_program
 from derive.program.gradient import by_constant
@@ -57,7 +57,7 @@ def signed(variant: Variant, name: str):
     found = in_parameters(variant, name)
     for opening in (False, True) if variant.pin.wears else (False,):
         sign = 1 if opening else -1
-        yield Condensed(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
+        yield CondensedProblem(variant.law, opening, variant.pin), found.subs(pin_wear_sign, sign)
 
 
 # What the code computes

@@ -73,7 +73,7 @@ def test_verify_has_the_form_of_the_contract(capsys):
 
 def test_a_failing_check_is_status_1(monkeypatch, capsys):
     planted = (check.Check("proof", False, "planted"),)
-    monkeypatch.setattr(verification, "checks", lambda _: planted)
+    monkeypatch.setattr(verification, "step_checks", lambda _: planted)
     assert main(["verify", "21"]) == 1
     assert "planted" in capsys.readouterr().out
 

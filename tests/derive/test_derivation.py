@@ -9,14 +9,14 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
-from derive.check import checks, on_models
+from derive.check import model_checks, step_checks
 from derive.equations import TEXTS, Equation, Status, numbered
 from derive.hypotheses import Hypothesis
 from derive.kernel import Judgement, RuleError, chain, infer, replayed
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
 from derive.note import condensed, governing
-from derive.note.condensed import Condensed
-from derive.note.governing import Model, Pin
+from derive.note.condensed import CondensedProblem
+from derive.note.governing import NoteModel, Pin
 from derive.note.problems import problem_i, problem_ii, undetermined
 from derive.rules.assumption import Assume, assume
 from derive.symbols import symbol, symbols
@@ -52,7 +52,7 @@ def test_no_model_breaks_an_equation():
     """Of several results of one kind the first is tried; ``derive verify`` tries every step."""
     for found in catalogue.all_equations():
         tried = found.statements if found.id in NOTE else found.statements[:1]
-        outcomes = [outcome for claim in tried for outcome in on_models(claim)]
+        outcomes = [outcome for claim in tried for outcome in model_checks(claim)]
         assert [outcome for outcome in outcomes if not outcome.passed] == [], found.id
 
 
@@ -71,8 +71,8 @@ def test_one_identifier_may_be_given_as_it_is():
 
 def test_every_step_follows_again_and_dimensions_agree():
     for step in _steps():
-        assert [outcome for outcome in checks(step) if not outcome.passed] == []
-        assert {outcome.kind for outcome in checks(step)} >= {"dimensions", "proof"}
+        assert [outcome for outcome in step_checks(step) if not outcome.passed] == []
+        assert {outcome.kind for outcome in step_checks(step)} >= {"dimensions", "proof"}
 
 
 def test_no_wrong_step_passes():
@@ -90,18 +90,20 @@ def test_no_wrong_step_passes():
         assert str(refusal.value), (written, what)
 
 
-def _sections_2_and_3(model: Condensed) -> tuple[Equation, ...]:
+def _sections_2_and_3(model: CondensedProblem) -> tuple[Equation, ...]:
     return numbered(governing.results(model) | condensed.results(model))
 
 
 HYPOTHESES = [(name, None) for name in ("closure", "support", "roughness", "pressure")] + [
-    (name, place) for name in ("archard", "start") for place in range(len(getattr(Model(), name)))
+    (name, place)
+    for name in ("archard", "start")
+    for place in range(len(getattr(NoteModel(), name)))
 ]
 
 
-def _with_wrong(name: str, place: int | None, what: int) -> Condensed:
+def _with_wrong(name: str, place: int | None, what: int) -> CondensedProblem:
     """Return a model in which one hypothesis is mutated, before anything is derived from it."""
-    model = Condensed()
+    model = CondensedProblem()
     stated = getattr(model, name)
     target = stated if place is None else stated[place]
     wrong = [claim for _, claim in mutants(target.relation) if not same(claim, target.relation)]
@@ -122,13 +124,13 @@ def test_a_wrong_hypothesis_shows_in_sections_2_and_3(name, place, what):
 
 
 def test_printed_forms_of_sections_2_and_3_follow():
-    for equation in _sections_2_and_3(Condensed()):
+    for equation in _sections_2_and_3(CondensedProblem()):
         assert equation.agrees, equation.id
         assert equation.status in (Status.DEFINITION, Status.DERIVED)
 
 
 def test_a_physical_sign_is_told_from_the_printed_one():
-    parted = {e.id for e in _sections_2_and_3(Condensed(opening=True)) if not e.agrees}
+    parted = {e.id for e in _sections_2_and_3(CondensedProblem(opening=True)) if not e.agrees}
     assert parted == {"7a", "8"}
 
 
@@ -137,14 +139,14 @@ def test_a_physical_sign_is_told_from_the_printed_one():
     ("pin", "opening"), [(pin, opening) for pin in Pin for opening in sorted({False, pin.wears})]
 )
 def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening):
-    problem = Condensed(law, opening, pin)
+    problem = CondensedProblem(law, opening, pin)
     for step in chain(problem.scalar, problem.rigid):
         assert replayed(step) is None, step.relation
 
 
 def test_a_law_is_written_once():
     """The exponential law's condensed problem, made by hand, is the derived one."""
-    problem = Condensed(LAWS["exponential"], pin=Pin.ABSENT)
+    problem = CondensedProblem(LAWS["exponential"], pin=Pin.ABSENT)
     h_0, u_c, U_a, sigma_c0, f_c = symbols("h_0 u_c U_a sigma_c0 f_c")
     p_max, K_c, V, H_c = symbols("p_max K_c V H_c")
     by_hand = K_c * V * p_max / (3 * H_c) * sp.exp(-(h_0 + u_c - U_a) / (sigma_c0 + f_c * u_c))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 import pytest
 import sympy as sp
 
-from derive.check import checks
+from derive.check import step_checks
 from derive.claims import Equality, Inequality
 from derive.equations import Equation
 from derive.hypotheses import ROUGHENING, Hypothesis
@@ -171,9 +171,9 @@ def test_a_judgement_that_rests_on_itself_is_found() -> None:
 
 def test_a_claim_that_is_changed_after_its_check_is_found() -> None:
     made = substitute(eq(h, h_0), eq(h_0, L))
-    assert all(check.passed for check in checks(made))
+    assert all(check.passed for check in step_checks(made))
     object.__setattr__(made, "claim", Equality(h, 2 * L))
-    assert not all(check.passed for check in checks(made))
+    assert not all(check.passed for check in step_checks(made))
 
 
 @pytest.mark.parametrize("statements", [(), ("f_c > 0",)])

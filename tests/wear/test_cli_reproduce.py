@@ -27,7 +27,7 @@ ALWAYS = {
 def shortened(monkeypatch):
     """Have the main job use quick runs, trust the derivations, and find no TeX."""
     monkeypatch.setattr(runs, "run", lambda _: quick.runs())
-    monkeypatch.setattr(verification, "verified", lambda found, _: quick.trusted(found))
+    monkeypatch.setattr(verification, "verification_of", lambda found, _: quick.trusted(found))
     alone = nullcontext(lambda task, *given: lambda: task(*given))
     monkeypatch.setattr(processes, "assistant", lambda: alone)
     few = {entry.claim.id: entry for entry in quick.few_claims()}
@@ -75,7 +75,7 @@ def test_a_step_that_does_not_hold_is_told(call, tmp_path, monkeypatch):
     def failing(found, _):
         return dataclasses.replace(quick.trusted(found), failures=(failure,))
 
-    monkeypatch.setattr(verification, "verified", failing)
+    monkeypatch.setattr(verification, "verification_of", failing)
     status, shown, messages = call("reproduce", "-o", str(tmp_path))
     assert status == 1
     assert "1 FAILED" in shown

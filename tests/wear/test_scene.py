@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from derive.laws import LAWS
-from derive.note.governing import Model, sigma_a, sigma_c
+from derive.note.governing import NoteModel, sigma_a, sigma_c
 from tests.wear.test_scene_faults import GOOD
 from wear.binding import bind
 from wear.faults import SceneError, UsageError
@@ -104,7 +104,7 @@ def test_only_a_load_that_repeats_has_a_period(tmp_path):
 
 def test_equivalent_roughness_is_equation_3():
     scene = load_scene("section3")
-    exact = Model().roughness.claim.rhs.subs(
+    exact = NoteModel().roughness.claim.rhs.subs(
         {sigma_a: sp.Rational("6.5e-5"), sigma_c: sp.Rational("3.6e-4")}
     )
     assert scene.initial_roughness == pytest.approx(float(exact), rel=4e-16)

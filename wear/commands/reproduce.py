@@ -61,7 +61,7 @@ def _reproduce(
     from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.note.claims import CLAIMS
-    from derive.verification import checked_at, verified
+    from derive.verification import perform_at, verification_of
     from wear.report.claims import SIMULATED, as_json, decided
     from wear.report.paper import drawings, paper
     from wear.report.publish import manifest, published
@@ -70,7 +70,7 @@ def _reproduce(
     with processes.assistant() as ask:
         pending = {claim: ask(decided, claim) for claim in SYMBOLIC}
         catalogue = all_equations()
-        checked = [ask(checked_at, place) for place in range(len(catalogue))]
+        outcomes = [ask(perform_at, place) for place in range(len(catalogue))]
         runs = run(lambda scene: progress(f"solving: {scene}"))
         solved = {}
         for claim in SIMULATED:
@@ -79,7 +79,7 @@ def _reproduce(
         progress("drawing")
         figures = drawings(runs)
         progress("verifying the equations")
-        verification = verified(catalogue, checked)
+        verification = verification_of(catalogue, outcomes)
         entries = tuple(solved.get(claim) or pending[claim]() for claim in CLAIMS)
         progress("writing")
         contents, typeset = published(paper(catalogue, verification, runs, entries, figures))

@@ -35,7 +35,7 @@ class Constants(NamedTuple):
     """Constants of a run."""
 
     most_of_margin: Array  # fresh_margin less one roughness, mm
-    fresh_margin: Array  # 3 sigma - h before any wear or load, mm
+    fresh_margin: Array  # 3 sigma - h without wear and load, mm
     most_of_gain: Array  # margin_gain less one roughness growth
     margin_gain: Array  # 3 sigma - h per wear of the bearing, undeflected
 
@@ -60,12 +60,12 @@ def margin_slope(u: Array, c: Constants) -> Array:
 
 
 def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
-    """Sum of the absolute terms of the margin, in mm: known to as many roundoffs."""
+    """Sum of the absolute terms of the margin, in mm, the scale of its rounding."""
     return np.abs(U_a) + np.abs(c.fresh_margin) + np.abs(c.margin_gain * u)
 
 
 def limited_pressure(p: Array, margin: Array, compliance: Array, c: Constants) -> Array:
-    """Contact pressure in MPa: root of the residual, or what keeps h at 3 sigma."""
+    """Contact pressure in MPa: root of the residual, or that with h at 3 sigma."""
     return np.minimum(p, np.maximum(margin / compliance, 0))
 
 
@@ -82,7 +82,7 @@ def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     total_most_of_gain = by.margin_gain + by.most_of_gain
     total_most_of_margin = by.fresh_margin + by.most_of_margin
     return Parameters(

@@ -63,14 +63,14 @@ def margin_slope(u: Array, c: Constants) -> Array:
 
 
 def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
-    """Sum of the absolute terms of the margin, in mm: known to as many roundoffs."""
+    """Sum of the absolute terms of the margin, in mm, the scale of its rounding."""
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     return c.h_0 + np.abs(U_a) + np.abs(u) + 3 * np.abs(sigma)
 
 
 def limited_pressure(p: Array, margin: Array, compliance: Array, c: Constants) -> Array:
-    """Contact pressure in MPa: root of the residual, or what keeps h at 3 sigma."""
+    """Contact pressure in MPa: root of the residual, or that with h at 3 sigma."""
     return np.minimum(p, np.maximum(margin / compliance, 0))
 
 
@@ -90,5 +90,5 @@ def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     return Parameters(by.h_0, by.sigma_a0, by.sigma_c0, by.f_c)

@@ -79,7 +79,7 @@ def margin_slope(u: Array, c: Constants) -> Array:
 
 
 def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
-    """Sum of the absolute terms of the margin, in mm: known to as many roundoffs."""
+    """Sum of the absolute terms of the margin, in mm, the scale of its rounding."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -87,7 +87,7 @@ def margin_terms(u: Array, U_a: Array, c: Constants) -> Array:
 
 
 def limited_pressure(p: Array, margin: Array, compliance: Array, c: Constants) -> Array:
-    """Contact pressure in MPa: root of the residual, or what keeps h at 3 sigma."""
+    """Contact pressure in MPa: root of the residual, or that with h at 3 sigma."""
     return np.minimum(p, np.maximum(margin / compliance, 0))
 
 
@@ -117,7 +117,7 @@ def margin_gradient(u: Array, U_a: Array, c: Constants) -> Constants:
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     slope_a = data.f_a * kappa
     total_kappa = by.kappa + by.gain * pin_wear_sign + by.slope_a * slope_a / kappa

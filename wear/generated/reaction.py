@@ -39,7 +39,7 @@ def by_length(R_a: Real, *, b: Real, L: Real) -> Real:
 
 
 def sliding_distance(*, T: Real, R: Real, n: Real) -> Real:
-    """Way that the pin slides in a cycle, in mm."""
+    """Sliding distance of a cycle, in mm."""
     return np.pi * R * T * n / 30
 
 

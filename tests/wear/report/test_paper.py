@@ -20,7 +20,7 @@ import derive.note.claim_checks
 from derive.catalogue import all_equations
 from derive.check import Check
 from derive.files import write_atomically
-from derive.verification import Verification, checked, parts, verified
+from derive.verification import Verification, perform, tasks, verification_of
 from tests.wear.report import quick
 from tests.wear.report.test_html import Outline
 from tests.wear.report.test_tex import numbers_labels_as_the_page_does
@@ -224,21 +224,21 @@ def test_the_verification_finds_a_wrong_step():
     wrong, claim = copy.copy(judgement), judgement.claim
     object.__setattr__(wrong, "claim", dataclasses.replace(claim, rhs=2 * claim.rhs))
     bad = dataclasses.replace(good, statements=(wrong,))
-    assert verified([good]).passed
-    outcome = verified([good, bad])
+    assert verification_of([good]).passed
+    outcome = verification_of([good, bad])
     assert not outcome.passed
     assert {identifier for identifier, _ in outcome.failures} == {"7c"}
 
 
 def test_steps_that_are_the_same_are_checked_once():
     (closure, again) = (e for e in all_equations() if e.id in ("1", "7a"))
-    assert verified([closure, again]).steps == 1
+    assert verification_of([closure, again]).steps == 1
 
 
-def test_parts_that_were_checked_elsewhere_are_put_together():
+def test_outcomes_of_other_processes_are_put_together():
     chosen = [e for e in all_equations() if e.id in ("1", "7a", "7c")]
-    answers = [partial(checked, part) for part in parts(chosen)]
-    assert verified(chosen, answers) == verified(chosen)
+    outcomes = [partial(perform, task) for task in tasks(chosen)]
+    assert verification_of(chosen, outcomes) == verification_of(chosen)
 
 
 # Analysis and numerics: what the tables of the paper say

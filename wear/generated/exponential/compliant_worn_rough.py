@@ -101,7 +101,7 @@ def bind(data: Parameters, pin_wear_sign: float) -> Constants:
 
 
 def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """What the contact pressure p must make zero, in MPa."""
+    """Residual of the equation for the contact pressure p, in MPa."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -121,7 +121,7 @@ def undeflected(u: Array, U_a: Array, c: Constants) -> Array:
 
 
 def softness(u: Array, c: Constants) -> Array:
-    """Roughnesses that the support gives way per pressure, in 1/MPa."""
+    """Deflection of the support per pressure, over the roughness, in 1/MPa."""
     sigma_a = c.sigma_a0 + c.slope_a * u
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(sigma_a * sigma_a + sigma_c * sigma_c)
@@ -219,7 +219,7 @@ def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, 
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     slope_a = data.f_a * kappa
     compliance = 1 / data.k

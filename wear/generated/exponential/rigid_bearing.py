@@ -103,7 +103,7 @@ def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
     return Parameters(
         by.h_0,

@@ -152,7 +152,7 @@ def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     slope_a = data.f_a * kappa
     largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)

@@ -79,7 +79,7 @@ def bind(data: Parameters) -> Constants:
 
 
 def residual(p: Array, u: Array, U_a: Array, c: Constants) -> Array:
-    """What the contact pressure p must make zero, in MPa."""
+    """Residual of the equation for the contact pressure p, in MPa."""
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     h = c.h_0 + u + c.compliance * p - U_a
@@ -98,7 +98,7 @@ def undeflected(u: Array, U_a: Array, c: Constants) -> Array:
 
 
 def softness(u: Array, c: Constants) -> Array:
-    """Roughnesses that the support gives way per pressure, in 1/MPa."""
+    """Deflection of the support per pressure, over the roughness, in 1/MPa."""
     sigma_c = c.sigma_c0 + c.f_c * u
     sigma = np.sqrt(c.sigma_a0 * c.sigma_a0 + sigma_c * sigma_c)
     return c.compliance / sigma
@@ -187,7 +187,7 @@ def rate_gradient(p: Array, u: Array, U_a: Array, c: Constants) -> tuple[Array, 
 
 
 def parameter_gradient(by: Constants, data: Parameters) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     compliance = 1 / data.k
     wear_per_pressure = np.pi * data.K_c * data.R * data.n / (90 * data.H_c)
     return Parameters(

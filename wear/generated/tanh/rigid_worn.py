@@ -119,7 +119,7 @@ def rate_gradient(u: Array, U_a: Array, c: Constants) -> tuple[Array, Constants]
 
 
 def parameter_gradient(by: Constants, data: Parameters, pin_wear_sign: float) -> Parameters:
-    """Derivatives with respect to the parameters, from those to the constants."""
+    """Derivatives with respect to the parameters, from those by the constants."""
     kappa = data.H_c * data.K_a / (data.H_a * data.K_c)
     largest_rate = np.pi * data.K_c * data.R * data.n * data.p_max / (90 * data.H_c)
     total_kappa = by.kappa + by.gain * pin_wear_sign
