@@ -1,1 +1,1 @@
-"""The note, in its own order, a file a section."""
+"""The note in its own order, one file for each section."""

@@ -1,8 +1,8 @@
-"""The claims that mathematics alone decides, each by a computation that can come out otherwise.
+"""The checks of the claims that mathematics alone decides; each can confirm or refute its claim.
 
 Overview
-    A check re-derives what its claim is about and reads the verdict off the result: an equation
-    whose steps all hold, under which conditions, a derivative of one sign, a counterexample.
+    A check re-derives the subject of its claim and takes the verdict from the result: an equation
+    whose steps all hold, its conditions, a derivative of one sign, a counterexample.
 Key results
     SYMBOLIC    the checks by claim id
 """
@@ -39,14 +39,14 @@ _PRESSED = frozenset({sp.Gt(p, 0)})
 
 @cache
 def _holds(*ids: str) -> tuple[bool, str, bool]:
-    """Return whether equations hold, a sentence on it, and whether they need conditions."""
+    """Return whether equations hold, the evidence, and whether they need conditions."""
     verdicts = verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
     known = {ROUGH_BEARING.relation, domain(u_cum)}
-    found = [c for i in ids for c in catalogue.equation(i).conditions if c.relation not in known]
-    settings = dict.fromkeys(c.text for c in found if c.is_setting)
-    conditions = dict.fromkeys(c.typed for c in found if not c.is_setting)
+    stated = [c for i in ids for c in catalogue.equation(i).conditions if c.relation not in known]
+    settings = dict.fromkeys(c.text for c in stated if c.is_setting)
+    conditions = dict.fromkeys(c.typed for c in stated if not c.is_setting)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
     setting = f"; setting: {', '.join(settings)}" if settings else ""
     needed = f"; needs {', '.join(conditions)}" if conditions else ""
@@ -55,7 +55,7 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
 
 
 def _finding(holds: bool, evidence: str, otherwise: Verdict = Verdict.REFUTED) -> Finding:
-    """Return that a claim is confirmed if it holds, the other verdict if not."""
+    """Return a finding: the claim is confirmed if it holds, else the other verdict."""
     return Finding(Verdict.CONFIRMED if holds else otherwise, evidence)
 
 
@@ -71,7 +71,7 @@ def _equations(*ids: str) -> Callable[[], Finding]:
 
 
 def closure_sign() -> Finding:
-    """C1: what wear of the pin does to the gap."""
+    """C1: the effect of pin wear on the gap."""
     model = NoteModel()
     slope = sp.diff(model.closure.claim.rhs, u_a)
     grows = sign(model.wear_laws[0].claim.rhs, _PRESSED)
@@ -140,12 +140,12 @@ def recovered() -> Finding:
     """C12: every unknown of problem (ii) follows."""
     missing = undetermined(U_a, problem_ii)
     good, evidence, _ = _holds("problem-ii")
-    left = ", ".join(map(str, missing)) or "none"
-    return _finding(good and not missing, f"unknowns left undetermined: {left}; {evidence}")
+    unknowns = ", ".join(map(str, missing)) or "none"
+    return _finding(good and not missing, f"unknowns left undetermined: {unknowns}; {evidence}")
 
 
 def stiff_limit() -> Finding:
-    """C14: the limit at equal wear, and what it leaves in the long run."""
+    """C14: the limit at equal wear, and the effect of the stiffness in the long run."""
     good, evidence, _ = _holds("10", "rigid-limit-error")
     drift = catalogue.equation("log-drift-compliant").relation
     if good and drift.has(k):
@@ -163,8 +163,8 @@ def deflection() -> Finding:
 def vacuous() -> Finding:
     """C18: (11) is satisfied by every field."""
     good, evidence, _ = _holds("every-field")
-    said = f"G_inf = G satisfies (11) for every G, so it defines nothing; {evidence}"
-    return _finding(not good, said, Verdict.INCONSISTENT)
+    vacuity = f"G_inf = G satisfies (11) for every G, so it defines nothing; {evidence}"
+    return _finding(not good, vacuity, Verdict.INCONSISTENT)
 
 
 def without_dots() -> Finding:
@@ -222,7 +222,7 @@ def linear_in_wear_coefficient() -> Finding:
 
 
 def one_eighth() -> Finding:
-    """C32: the printed criterion, and what f_c > 1/8 is."""
+    """C32: the printed criterion, and the meaning of f_c > 1/8."""
     good, evidence, _ = _holds("criterion", "one-eighth")
     slope = sp.Rational(1, 10)
     margin = 1 + sp.tanh(4 - 2 / slope)

@@ -1,12 +1,12 @@
-"""The claims of the note, and what a verdict on one is.
+"""The claims of the note and the possible verdicts on them.
 
 Overview
-    One row is one claim, in the order of the note.  Each is decided by a check, run anew every
+    One row is one claim, in the order of the note.  Each is decided by a check, which runs every
     time: the symbolic ones in ``claim_checks``, those that need a simulation on the report
-    side.  A verdict is what its check computed, never written down beforehand.
+    side.  A verdict is computed by its check, never written down beforehand.
 Key results
     CLAIMS    the claims by id
-    Verdict   what can be said of one
+    Verdict   the possible outcomes for a claim
     Finding   a verdict with its evidence
 """
 
@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 
 class Verdict(StrEnum):
-    """What can be said of a claim."""
+    """The possible outcomes for a claim."""
 
     CONFIRMED = "confirmed"
     CONDITIONAL = "confirmed-with-conditions"
@@ -27,8 +27,8 @@ class Verdict(StrEnum):
     REFUTED = "refuted"
 
 
-class Claim(NamedTuple):
-    """A claim and where the note makes it."""
+class NoteClaim(NamedTuple):
+    """A claim and its place in the note."""
 
     id: str
     where: str
@@ -36,7 +36,7 @@ class Claim(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """What a check found; every figure in the evidence was computed by it."""
+    """The result of a check, which computed every figure in the evidence."""
 
     verdict: Verdict
     evidence: str
@@ -90,5 +90,5 @@ _TABLE = (
     ("C41", "3, 4, 5, data", "p_max = 300 MPa on a bearing whose hardness is H_c = 200 MPa"),
 )
 
-CLAIMS = MappingProxyType({row[0]: Claim(*row) for row in _TABLE})
+CLAIMS = MappingProxyType({row[0]: NoteClaim(*row) for row in _TABLE})
 """The claims by id, in the order of the note."""

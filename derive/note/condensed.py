@@ -5,12 +5,14 @@ Overview
     for the bearing wear u_c: implicit in the rate when the support is compliant, explicit in
     the limit of a rigid one.
 Key results
-    CondensedProblem.implicit       (8), first line
-    CondensedProblem.scalar         (8) with u_a eliminated as well: Q of (9)
-    CondensedProblem.rigid          (10), the limit k -> oo of (8), taken by the machine
-    CondensedProblem.rigid_condensed (13), for a smooth pin that does not wear
-    condensed                any of these problems, each derived once
-    bearing_only, two_solids  those that all results rest on
+    CondensedProblem   its properties are
+        implicit           (8), first line
+        scalar             (8) with u_a eliminated as well: Q of (9)
+        rigid              (10), the limit k -> oo of (8), taken by the machine
+        rigid_condensed    (13), for a smooth pin that does not wear
+    condensed          the condensed problem of a law, sign and pin, derived once
+    bearing_only       that of section 4
+    two_solids         that of section 3
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ U_c, u_a = symbols("U_c u_a")
 
 @dataclass(frozen=True)
 class CondensedProblem(NoteModel):
-    """The model, with all but the wear eliminated."""
+    """The model with every unknown but the wear eliminated."""
 
     @cached_property
     def deflection(self) -> Judgement:
@@ -41,14 +43,14 @@ class CondensedProblem(NoteModel):
 
     @cached_property
     def pressure_from_rate(self) -> Judgement:
-        """Archard's law of the bearing, read as the pressure that a wear rate needs."""
+        """Archard's law of the bearing, solved for the pressure."""
         return Solve(p)(self.wear_laws[2])
 
     @cached_property
     def pressure_at_wear(self) -> Judgement:
         """The contact law with closure and roughness written in terms of wear and load."""
-        closed = substitute(self.pressure, self.closure, self.deflection)
-        return substitute(closed, self.roughness_at_wear)
+        pressure = substitute(self.pressure, self.closure, self.deflection)
+        return substitute(pressure, self.roughness_at_wear)
 
     @cached_property
     def implicit(self) -> Judgement:
@@ -58,13 +60,13 @@ class CondensedProblem(NoteModel):
 
     @cached_property
     def pressure_of_bearing_wear(self) -> Judgement:
-        """The pressure in terms of u_c and U_a: explicit but for the deflection p/k."""
-        made = self.pressure_at_wear
-        return substitute(made, self.wear_of_pin) if made.relation.has(u_a) else made
+        """The pressure in terms of u_c and U_a: explicit except for the deflection p/k."""
+        pressure = self.pressure_at_wear
+        return substitute(pressure, self.wear_of_pin) if pressure.relation.has(u_a) else pressure
 
     @cached_property
     def scalar(self) -> Judgement:
-        """Eq. (9): u_c alone, solved for its rate where that stands outside the contact law."""
+        """Eq. (9): u_c alone, solved for its rate, which the contact law may contain too."""
         explicit = substitute(self.wear_laws[2], self.pressure_of_bearing_wear)
         return substitute(explicit, self.pressure_from_rate).named("general form")
 
@@ -83,9 +85,7 @@ class CondensedProblem(NoteModel):
 
 
 condensed = cache(CondensedProblem)
-
-
-"""The problem of a law, a sign of pin wear and a kind of pin; what follows is derived once."""
+"""The problem of a law, a sign of pin wear and a kind of pin, whose results are derived once."""
 
 
 def bearing_only(law: ContactLaw = TANH) -> CondensedProblem:
@@ -100,7 +100,7 @@ def two_solids(law: ContactLaw = TANH, opening: bool = False) -> CondensedProble
 
 def results(two: CondensedProblem) -> dict[str, Proved]:
     """Return equations (8) to (10) and (13) of two worn, rough solids."""
-    one, start = replace(two, pin=Pin.ABSENT), two.start[1]
+    one, start = replace(two, pin=Pin.ABSENT), two.start[1]  # one worn solid; u_c(0) = 0
     return {
         "8": (two.implicit, two.wear_of_pin, start),
         "9": (two.scalar, start),

@@ -4,7 +4,7 @@ Overview
     Two rigid solids, a rotating pin and a bearing on springs, are in contact and wear.  The
     hypotheses (1) to (6) are stated here as the note states them; (7) follows from them.
 Key results
-    NoteModel               the hypotheses, for a contact law, a sign of pin wear and a kind of pin
+    NoteModel           the hypotheses, for a contact law, a sign of pin wear and a kind of pin
     pressure_in_contact (7e) where the cutoff in the text under (4) allows contact
     wear_of_pin, roughness_of_pin, roughness_of_bearing   (5) integrated from (6)
 Remarks
@@ -47,7 +47,7 @@ def equation(relation: sp.Basic, name: str = "", remark: str = "") -> Judgement:
 
 
 class Pin(StrEnum):
-    """What the pin does: none of a smooth pin's roughness or an unworn pin's wear is modelled."""
+    """The kind of pin; a smooth one has no field of roughness, an unworn one no wear depth."""
 
     ABSENT = "bearing"  # smooth, does not wear
     ROUGH = "rough"  # rough, does not wear
@@ -56,12 +56,12 @@ class Pin(StrEnum):
 
     @property
     def wears(self) -> bool:
-        """Whether the pin has a wear depth."""
+        """Return whether the pin has a wear depth."""
         return self in (Pin.WORN, Pin.WORN_ROUGH)
 
     @property
     def rough(self) -> bool:
-        """Whether the pin has a roughness."""
+        """Return whether the pin has a roughness."""
         return self in (Pin.ROUGH, Pin.WORN_ROUGH)
 
 
@@ -108,12 +108,12 @@ class NoteModel:
 
     @cached_property
     def pressure_with_cutoff(self) -> Judgement:
-        """Eq. (4) with the text under it: no contact for h > 3 sigma."""
+        """Eq. (4) with the text below it: no contact for h > 3 sigma."""
         return equation(model.contact(self.law))
 
     @property
     def in_contact(self) -> Hypothesis:
-        """Contact is active, in the sense of the text under (4)."""
+        """Contact is active in the sense of the text below (4)."""
         return Hypothesis(sp.Le(h, self.law.cutoff * sigma))
 
     @cached_property
@@ -123,13 +123,13 @@ class NoteModel:
 
     @cached_property
     def archard(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
-        """Eq. (5): wear of both solids by Archard's law, and what it does to the roughness."""
+        """Eq. (5): wear of both solids by Archard's law, and the resulting change of roughness."""
         u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = map(equation, model.ARCHARD)
         return u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate
 
     @cached_property
     def wear_laws(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
-        """Eq. (7f): (5) when wear of a solid changes its own roughness only."""
+        """Eq. (7f): (5) if wear of a solid changes only its own roughness."""
         u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = self.archard
         (no_ac, no_ca), (own_a, own_c) = map(assume, UNCOUPLED), OWN
         return (

@@ -1,22 +1,22 @@
 """Section 2: the model, equations (1) to (6), as relations.
 
 Overview
-    Beside a result, nobody is told of these: that it rests on the model is understood.  So
-    nothing else may be called an equation of the model, or an initial condition.
+    These are not repeated beside each result, which is understood to rest on the model.  No other
+    relation may therefore be called an equation of the model, or an initial condition.
 Key results
     CLOSURE             (1), as printed (False) and with the sign that wear of the pin has (True)
     REACTION, SUPPORT   (2)
     ROUGHNESS           (3)
     contact             (4) and the text under it, for a contact law
-    at_every_closure    (4) without that text
+    at_every_closure    (4) without its cutoff
     ARCHARD             (5)
     START               (6)
     SLIP                section 2.4
-    WORDS               what (1) to (5) and those of section 2.4 are called
+    WORDS               the names of (1) to (5) and of those of section 2.4
     law_of              the law in (4)
-    subject             the quantity that one of them gives
+    subject             the quantity that one of them determines
     FIELDS              the functions of time in (1) to (5)
-    WEARING             those that have rates
+    WEARING             the fields that have rates
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ START = (
 )
 FIELDS = frozenset(f.func for f in (h, U_a, U_c, u_a, u_c, sigma, sigma_a, sigma_c, p, R_a))
 WEARING = frozenset((u_a, u_c, sigma_a, sigma_c))
-"""Fields that have rates, by Archard's law; others where a premise says so."""
+"""Fields that have rates by Archard's law; another field needs a premise that it has one."""
 SLIP = (sp.Eq(V, R * omega), sp.Eq(omega, sp.pi * n / 30))
 
 
@@ -87,11 +87,11 @@ WORDS = MappingProxyType(
         SLIP[1]: "revolutions per minute",
     }
 )
-"""What the equations but (6) are called."""
+"""The names of the equations, without (6)."""
 
 
 def subject(relation: sp.Equality) -> object:
-    """Return the quantity of which an equation of the model gives the value, or the rate.
+    """Return the quantity whose value or rate an equation of the model determines.
 
     >>> subject(SUPPORT), subject(ARCHARD[0])
     (U_c, u_a)

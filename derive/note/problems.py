@@ -1,13 +1,13 @@
-"""Section 2.6 and 3: problems (i) and (ii), and which unknowns follow from which.
+"""Sections 2.6 and 3: problems (i) and (ii), and the order in which their unknowns follow.
 
 Overview
     (7) has one more unknown than equations: either the reaction R_a of the pin is given, or its
     displacement U_a.  Each problem is a list of statements, in an order in which every
-    statement determines one more field from those before it.
+    statement determines one more field from the preceding ones.
 Key results
     problem_i      given load: statements in the order in which the fields follow
     problem_ii     given motion
-    undetermined   what is wrong with an order; nothing, for both
+    undetermined   the faults of an order; neither problem has any
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ problem_ii = (
 
 
 def undetermined(given: sp.Expr, order: Iterable[Judgement]) -> tuple[str, ...]:
-    """Return what an order of statements uses before it has it; empty when every field follows.
+    """Return the fields that an order of statements uses too early; empty if every field follows.
 
-    A field may follow from its own rate of change, that is by integration in time from (6).
+    A field may follow from its own rate, by integration in time from (6).
 
     >>> undetermined(R_a, problem_i), undetermined(U_a, problem_ii)
     ((), ())

@@ -8,8 +8,8 @@ Overview
 Key results
     limit_argument     (17), second line
     wear_per_cycle     (21)
-    asymptote          what stands in the place of (19)
-    constant_bracket   why (16), second line, is false: the bracket is a constant
+    asymptote          the correction of (19)
+    constant_bracket   the refutation of (16), second line: the bracket is a constant
 Remarks
     (11) as printed holds for every field, with G_inf = G.  (12) as printed, without the dots,
     excludes the accumulation that it is meant to describe.
@@ -52,7 +52,7 @@ steady = steady_state()
 """The limit of h/sigma and what it rests on, for the law of the note."""
 
 asymptotic_response = define(sp.Eq(forever(G - G_inf.subs(t, 0)), 0))
-"""(11), made to say something: the field itself has a limit."""
+"""(11) in a form that is not vacuous: the field itself has a limit."""
 
 every_field = Passes(sp.Eq(forever(G - G_inf), 0))(
     define(sp.Eq(G_inf, G)), name="every field satisfies (11)"
@@ -68,7 +68,7 @@ stabilised_response = (
 periodic_rate = Passes(sp.Eq(forever(later(rate("u_c")) - rate("u_c")), 0))(
     steady.rate, name="the rate becomes periodic"
 )
-"""(14): the rates of two cycles come together."""
+"""(14): the difference of the rates of consecutive cycles tends to zero."""
 
 _left = forever(3 * H_c / (K_c * V) * rate("u_c"))
 _right = forever(p_max / 2 * (1 + sp.tanh(argument)))
@@ -124,7 +124,7 @@ linear_approach = first_order(
 """The distance of the rate from its limit, to first order in 1/t."""
 
 asymptote = drift(linear_approach)
-"""In the place of (19): wear departs from every straight line like ln t."""
+"""The correction of (19): wear departs from every straight line like ln t."""
 
 increment = defined(
     u_cum,
@@ -159,4 +159,4 @@ EQUATIONS: Mapping[str, Proved] = MappingProxyType(
         "dropped-denominators": dropped_denominators,
     }
 )
-"""Equations (11) to (22), and what refutes (11) and (16) as printed."""
+"""Equations (11) to (22), and the refutations of (11) and (16) as printed."""

@@ -1,8 +1,8 @@
-r"""Formulas that nobody laid out, broken so that they stay on the page.
+r"""Line breaks in formulas without a layout by an author.
 
 Display forms are broken by their authors. The steps of a derivation are printed by a machine and
 can be of any length: if they are too wide, they are broken before relations and signs, outside of
-brackets where possible. A ``\left ... \right`` pair that is too wide itself is given delimiters of
+brackets where possible. A ``\left ... \right`` pair that is itself too wide gets delimiters of
 a fixed size, a fraction that is too wide becomes a product, and a root a power, so that breaks
 become possible inside.
 """
@@ -19,14 +19,14 @@ from .formula import Piece, fence, parse, rows, source, total, width
 #: Room for a formula beside its number, in em of the text: 160 mm of 11 pt type are 41 em.
 LIMIT = 34.0
 
-_INDENT = 2.5  # of a line that is not the first, and begins with a sign
-#: Width, as a share of a line, from which on pieces are opened: smaller until all lines fit.
+_INDENT = 2.5  # of a continuation line, which begins with a sign
+#: Width, as a share of a line, above which pieces are opened; tried in turn until all lines fit.
 _SHARES = (1.0, 0.75, 0.5, 0.25)
 #: The widest left side of a system, as a share of a line, that other rows are aligned with.
 _LEFT = 0.3
-#: Rows up to which a system has a line for each; in a longer one short rows share lines.
+#: Number of rows up to which a system has a line for each; in a longer one short rows share lines.
 _ROWS = 6
-_SHORT = 0.5  # the widest row that shares a line, as a share of it
+_SHORT = 0.5  # greatest width of a row that shares a line, as a share of the line
 _SPACED = re.compile(r"\s*&")
 _SIZES = ((r"\bigl", r"\bigr"), (r"\biggl", r"\biggr"), (r"\Biggl", r"\Biggr"))
 _SYSTEM = re.compile(
@@ -37,7 +37,7 @@ _SYSTEM = re.compile(
 
 
 def broken(latex: str, limit: float = LIMIT) -> str:
-    r"""The formula as it is, or as rows of ``aligned`` if it is wider than `limit` em.
+    r"""Return the formula unchanged, or in rows of ``aligned`` if it is wider than `limit` em.
 
     >>> broken("a = b + c", limit=4.0)
     '\\begin{aligned}a &= b \\\\ &\\qquad + c\\end{aligned}'
@@ -55,26 +55,26 @@ def broken(latex: str, limit: float = LIMIT) -> str:
 
 
 def _sharing(system: list[str], limit: float) -> list[str]:
-    """The rows of a long system with short ones side by side, two on a line."""
+    """Return the lines of a long system, with pairs of short rows on one line."""
     if len(system) <= _ROWS:
         return system
     lines: list[str] = []
     last = math.inf
     for row in system:
-        own = width(row)
-        if max(last, own) <= _SHORT * limit and not row.lstrip().startswith(r"\text"):
+        current = width(row)
+        if max(last, current) <= _SHORT * limit and not row.lstrip().startswith(r"\text"):
             lines[-1] = rf"{lines[-1].rstrip()}, \quad {_SPACED.sub(' ', row).strip()}"
             last = math.inf
         else:
             lines.append(row)
-            last = own
+            last = current
     return lines
 
 
 def _system(system: list[str], limit: float) -> list[str]:
-    """Rows with a common point of alignment: what stands left of it is as wide as the widest.
+    """Return the lines of rows with a common point of alignment, right of the widest left side.
 
-    Where that leaves too little, rows with a wide left side start at the point of alignment.
+    If the remaining width is too small, rows with a wide left side start at that point.
     """
     sides = [tuple(width(side) for side in _sides(row)) for row in system]
     left = max(side[0] for side in sides)
@@ -82,22 +82,23 @@ def _system(system: list[str], limit: float) -> list[str]:
         return system
     left = max((side[0] for side in sides if side[0] <= _LEFT * limit), default=0.0)
     lines: list[str] = []
-    for row, (own, _) in zip(system, sides, strict=True):
-        if own > left:
+    for row, (before, _) in zip(system, sides, strict=True):
+        if before > left:
             lines += _lines("&" + _SPACED.sub("", row), limit - left)
         else:
-            lines += _lines(row, limit - left + own, own + _INDENT)
+            lines += _lines(row, limit - left + before, before + _INDENT)
     return lines
 
 
 def _sides(row: str) -> tuple[str, str]:
-    """What stands left and right of a row's point of alignment."""
+    """Return the left and right sides of a row's point of alignment."""
     left, mark, right = row.partition("&")
     return (left, right) if mark else ("", left)
 
 
 def _lines(row: str, limit: float, indent: float = _INDENT) -> list[str]:
-    """One row as lines for a table with one alignment point; all but the first are indented."""
+    """Return the lines of a row, for a table with one alignment point; continuations are
+    indented."""
     pieces = parse(row)
     if total(pieces) <= limit:
         return [row]
@@ -110,12 +111,12 @@ def _lines(row: str, limit: float, indent: float = _INDENT) -> list[str]:
 
 
 def _unaligned(line: tuple[Piece, ...]) -> str:
-    """The line without a point of alignment: it is the indent that aligns it."""
+    """Return a continuation line, aligned by its indent instead of a point of alignment."""
     return source(piece for piece in line if piece.tex != "&")
 
 
 def _aligned(line: tuple[Piece, ...]) -> str:
-    """The line with its first relation as the point of alignment."""
+    """Return the line with its first relation as the point of alignment."""
     for index, piece in enumerate(line):
         if piece.kind == "relation" and piece.depth == 0:
             return source(line[:index]) + "&" + source(line[index:])
@@ -123,7 +124,7 @@ def _aligned(line: tuple[Piece, ...]) -> str:
 
 
 def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
-    """The pieces with those opened that leave little of a line, or need more than one."""
+    """Return the pieces, with those opened that fill most of a line or more."""
     opened: list[Piece] = []
     for piece in pieces:
         if piece.kind == "cases" and piece.width > limit:
@@ -143,7 +144,7 @@ def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
 
 
 def _stacked(cases: Piece, limit: float) -> Piece:
-    """Cases with their conditions below the values, which are broken where they are too wide."""
+    """Return cases with their conditions below the values, which are broken if too wide."""
     body = cases.tex.removeprefix(r"\begin{cases}").removesuffix(r"\end{cases}")
     lines: list[str] = []
     for row in rows(body):
@@ -155,7 +156,7 @@ def _stacked(cases: Piece, limit: float) -> Piece:
 
 
 def _unfenced(piece: Piece) -> tuple[Piece, ...]:
-    """A fence with delimiters of a fixed size, which may stand on different lines."""
+    """Return a fence with delimiters of a fixed size, which may be on different lines."""
     left, right = _SIZES[min(piece.height, 2)]
     opening, closing = piece.delimiters
     inside = (replace(inner, depth=inner.depth + piece.depth + 1) for inner in piece.parts[0])
@@ -167,12 +168,12 @@ def _unfenced(piece: Piece) -> tuple[Piece, ...]:
 
 
 def _as_power(root: Piece) -> tuple[Piece, ...]:
-    """A root as a power of one half."""
+    """Return a root as a power of one half."""
     return _bracketed(root.parts[0], root.depth), Piece("^{1/2}", 1.0, depth=root.depth)
 
 
 def _as_product(fraction: Piece, limit: float) -> tuple[Piece, ...]:
-    """A fraction on one line, or one over its denominator if that is narrow."""
+    """Return a fraction as a quotient on the line, or a product with 1/denominator if narrow."""
     numerator, denominator = fraction.parts
     above = _bracketed(numerator, fraction.depth)
     if total(denominator) > 0.6 * limit:
@@ -192,7 +193,7 @@ def _bracketed(pieces: tuple[Piece, ...], depth: int) -> Piece:
 
 
 def _fill(pieces: tuple[Piece, ...], limit: float, indent: float) -> list[tuple[Piece, ...]]:
-    """Lines that fit, full but broken as little inside brackets as can be."""
+    """Return lines that fit, filled well and with few breaks inside brackets."""
     lines, rest, room = [], pieces, limit
     while total(rest) > room:
         possible = dict(_breaks(rest))
@@ -207,18 +208,20 @@ def _fill(pieces: tuple[Piece, ...], limit: float, indent: float) -> list[tuple[
 
 
 def _cost(start: Piece, filled: float) -> float:
-    """How little one likes a line that is so full, with the next one starting there."""
+    """Return the cost of a line that is filled to this share, if the next one starts there."""
     return start.depth + _emptiness(filled) - (0.5 if start.kind == "relation" else 0.0)
 
 
 def _emptiness(filled: float) -> int:
-    """Levels of brackets that one rather breaks inside of than leave a line so empty."""
+    """Return the cost of an incomplete line, as a number of levels of brackets."""
     return 0 if filled > 0.5 else 2 if filled > 0.25 else 4
 
 
 def _breaks(pieces: tuple[Piece, ...]) -> Iterator[tuple[int, Piece]]:
-    """Where a line may start, with the relation or sign that it starts with; the point of
-    alignment goes with its relation."""
+    """Yield the places where a line may start, with the relation or sign that it starts with.
+
+    A point of alignment stays with its relation.
+    """
     for index, piece in enumerate(pieces):
         start = index - (index > 0 and pieces[index - 1].tex == "&")
         if start > 0 and piece.kind in ("relation", "sign"):

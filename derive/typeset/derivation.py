@@ -1,11 +1,11 @@
-r"""Derivations in words: what each step did with which relation, and what came out.
+r"""Derivations in words: a sentence and a formula for each step.
 
 Overview
-    A sentence may hold formulas, ``$...$``, and names equations as ``[eq:21]``.  Every step stands
-    once, in the derivation of the first equation that needs it; others refer to it.
+    A sentence may have formulas, ``$...$``, and names equations as ``[eq:21]``.  Every step
+    appears once, in the derivation of the first equation that needs it; others refer to it.
 Key results
-    Derivations    the derivations of some equations, in the order in which they are asked for
-    prose          the whole chain to one equation as LaTeX, to \input into a text of one's own
+    Derivations    the derivations of some equations, in the order of the calls
+    prose          the whole chain to one equation as LaTeX, to \input into another text
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ..hypotheses import Kind
 from ..kernel import Judgement
 from . import formula
 from .display import inline, latex
-from .macros import macro_name, macros, written
+from .macros import macro_name, macros, rendered
 from .present import presentable
 from .reading import typed
 
@@ -32,10 +32,10 @@ if TYPE_CHECKING:
 
 
 class Step(NamedTuple):
-    """A step: a sentence, the author's remark on it, and the formula that came out.
+    """A step: a sentence, the author's remark on it, and the resulting formula.
 
-    If the formula has a number, `latex` is empty, `equation` is its id, and `part` says whether it
-    is one of several under that number.
+    If the formula has a number, `latex` is empty, `equation` is its id, and `part` whether it is
+    one of several formulas of that number.
     """
 
     sentence: str
@@ -46,7 +46,7 @@ class Step(NamedTuple):
 
 
 class Derivations:
-    """The derivations of some equations; a step that was told once is referred to."""
+    """The derivations of some equations; a step that was shown before is referred to."""
 
     def __init__(self, equations: Iterable[Equation]) -> None:
         self._equations = {equation.id: equation for equation in equations}
@@ -55,46 +55,47 @@ class Derivations:
             if equation.id not in _COLLECTIONS:
                 for relation in _results(equation):
                     self._named.setdefault(relation, equation.id)
-        self._told: dict[sp.Basic, tuple[str, int]] = {}
+        self._places: dict[sp.Basic, tuple[str, int]] = {}
 
     def steps(self, identifier: str) -> tuple[Step, ...]:
-        """Return the steps to an equation that have not been told yet."""
-        own = (
+        """Return the steps to an equation that have not been shown yet."""
+        new = (
             statement
             for statement in self._equations[identifier].steps
-            if statement.relation not in self._told
+            if statement.relation not in self._places
             and self._named.get(statement.relation, identifier) == identifier
             and not is_hypothesis(statement)
         )
-        return self._tell(identifier, own)
+        return self._show(identifier, new)
 
     def chain(self, identifier: str) -> tuple[Step, ...]:
         """Return all steps to an equation, those to other equations on the way included."""
         chain = self._equations[identifier].steps
-        return self._tell(identifier, (each for each in chain if not is_hypothesis(each)))
+        return self._show(identifier, (each for each in chain if not is_hypothesis(each)))
 
     def start(self, identifier: str) -> tuple[Step, ...]:
         """Return the hypotheses on which an equation rests, as steps without a sentence."""
         chain = self._equations[identifier].steps
         given = (each for each in chain if is_hypothesis(each))
-        return tuple(dict.fromkeys(self._shown(each, identifier) for each in given))
+        return tuple(dict.fromkeys(self._result(each, identifier) for each in given))
 
-    def _tell(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
+    def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
+        """Return the steps of statements, and keep the place of each for later references."""
         steps: list[Step] = []
         for statement in statements:
             step = self._step(statement, identifier)
             if step not in steps:
                 steps.append(step)
-            self._told.setdefault(statement.relation, (identifier, steps.index(step) + 1))
+            self._places.setdefault(statement.relation, (identifier, steps.index(step) + 1))
         return tuple(steps)
 
     def origins(self, identifier: str) -> tuple[str, ...]:
         """Return the equations from which this one follows, none for definitions."""
-        found: dict[str, None] = {}
+        origins: dict[str, None] = {}
         for statement in self._equations[identifier].statements:
             for parent in statement.parents:
-                found |= dict.fromkeys(self._nearest(parent, identifier))
-        return tuple(found)
+                origins |= dict.fromkeys(self._nearest(parent, identifier))
+        return tuple(origins)
 
     def _nearest(self, statement: Judgement, of: str) -> Iterator[str]:
         name = self._named.get(statement.relation, of)
@@ -107,43 +108,44 @@ class Derivations:
     def _step(self, statement: Judgement, of: str) -> Step:
         parents = [self._name(parent, of) for parent in statement.parents]
         parts = _FIXED.split(statement.rule.sentence(*parents, write=_written))
-        said = "".join(part if part[:1] in ("$", "[") else typed(part) for part in parts)
-        return self._shown(statement, of)._replace(sentence=said, remark=statement.remark)
+        sentence = "".join(part if part[:1] in ("$", "[") else typed(part) for part in parts)
+        return self._result(statement, of)._replace(sentence=sentence, remark=statement.remark)
 
-    def _shown(self, statement: Judgement, of: str) -> Step:
-        """Return what a step gave: an equation or a formula."""
+    def _result(self, statement: Judgement, of: str) -> Step:
+        """Return the result of a step, an equation or a formula, without its sentence."""
         relation = statement.relation
-        own = of if relation in _results(self._equations[of]) else ""
-        if name := self._named.get(relation, own):
+        current = of if relation in _results(self._equations[of]) else ""
+        if name := self._named.get(relation, current):
             return Step("", "", "", name, len(_results(self._equations[name])) > 1)
         return Step("", "", latex(presentable(relation)))
 
     def _name(self, parent: Judgement, of: str) -> str:
-        """How a step refers to another relation."""
+        """Return the reference of a step to another relation."""
         numbered = self._named.get(parent.relation)
         if numbered is not None and numbered != of:
             return f"[eq:{numbered}]"
-        equation, place = self._told.get(parent.relation, ("", 0))
+        equation, place = self._places.get(parent.relation, ("", 0))
         if not equation:
             return _assumed(parent)
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
 
 
 def _results(equation: Equation) -> tuple[sp.Basic, ...]:
-    """Return what is derived in an equation, or all of it where nothing is."""
+    """Return the derived relations of an equation, or all of them if none is derived."""
     derived = tuple(each.relation for each in equation.statements if not is_hypothesis(each))
     return derived or tuple(each.relation for each in equation.statements)
 
 
 def _assumed(hypothesis: Judgement) -> str:
-    """Return how a step refers to a hypothesis that no equation shows: by a short formula."""
+    """Return the reference to a hypothesis that no equation shows: a short formula or words."""
     relation = hypothesis.relation
-    said = next(h for h in hypothesis.hypotheses if h.relation == relation)
-    defined = said.kind is Kind.DEFINITION
+    supposed = next(h for h in hypothesis.hypotheses if h.relation == relation)
+    defined = supposed.kind is Kind.DEFINITION
     if defined and isinstance(relation.args[0], (sp.Symbol, AppliedUndef)):
         return "the definitions"
     long = isinstance(relation, Predicate) or len(str(relation)) > _SHORT
-    return said.words if said.words and long else f"${inline(presentable(relation))}$"
+    by_words = supposed.words and long
+    return supposed.words if by_words else f"${inline(presentable(relation))}$"
 
 
 def is_hypothesis(statement: Judgement) -> bool:
@@ -151,14 +153,14 @@ def is_hypothesis(statement: Judgement) -> bool:
     return type(statement.rule).__name__ == "Assume"
 
 
-#: Characters up to which a formula stands in a sentence.
+#: Greatest number of characters of a formula in a sentence.
 _SHORT = 60
 _LONG = 18.0
-"""Width in em from which a formula does not fit into the line of a phone."""
+"""Width in em above which a formula does not fit into a line on a phone."""
 _FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
-"""What a sentence has in LaTeX already, and references."""
+"""LaTeX and references in a sentence, which are not read again."""
 _COLLECTIONS = ("problem-i", "problem-ii")
-"""Systems that collect what is derived elsewhere: no step refers to a line of theirs."""
+"""Systems of relations that are derived elsewhere: no step refers to a line of theirs."""
 _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 
 
@@ -172,7 +174,7 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     derivations = Derivations(equations)
     start, steps = derivations.start(target.id), derivations.chain(target.id)
     shown = dict.fromkeys(step.equation for step in (*start, *steps) if step.equation)
-    return written(
+    return rendered(
         "derivation",
         target=target,
         macros=macros([by_id[name] for name in shown], width).rstrip(),
@@ -186,6 +188,6 @@ def prose(equations: Sequence[Equation], width: float) -> str:
 
 
 def _written(expr: sp.Basic) -> str:
-    """Return a formula for a sentence, its fractions on the line unless that makes it long."""
+    """Return a formula for a sentence, with fractions on the line unless it becomes too long."""
     flat = inline(presentable(expr))
     return f"${flat if formula.width(flat) < _LONG else latex(expr)}$"

@@ -2,8 +2,8 @@
 
 Overview
     Display forms are read from text that keeps the order of terms (``derive.written``).  The
-    printer follows the order of the arguments, writes fields without their "(t)", derivatives
-    upright, those with respect to a datum as partial ones.
+    printer keeps the order of the arguments, omits the "(t)" of fields, and writes derivatives
+    with an upright d, those with respect to a datum as partial derivatives.
 Key results
     latex         LaTeX of a relation or of a system of them
     inline        LaTeX of a relation in a line of text
@@ -35,7 +35,7 @@ _SETTINGS = {
 
 
 class _Printer(LatexPrinter):
-    """SymPy's LaTeX printer with the names and habits of the field.
+    """SymPy's LaTeX printer with the names and conventions of the field.
 
     As ISO 80000-2 has it, the d of a differential and the base e stand upright.  Fractions inside
     fractions and exponents, where they would be tiny, are written on the line.
@@ -73,7 +73,7 @@ class _Printer(LatexPrinter):
         return body if exp is None else rf"{body}^{{{exp}}}"
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
-        """Print a sum that was built from the left without the brackets of its history."""
+        """Print nested sums that were built from the left without brackets."""
         terms = list(expr.args)
         while isinstance(terms[0], sp.Add):
             terms[:1] = terms[0].args
@@ -121,7 +121,7 @@ class _Printer(LatexPrinter):
         return str(self._do_exponent(r"\mathrm{e}", exp))
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
-        """Print branches with fractions of full size: small ones read like exponents."""
+        """Print branches with fractions of full size; small ones resemble exponents."""
         rows = []
         for value, condition in expr.args:
             if condition == sp.true:
@@ -132,9 +132,9 @@ class _Printer(LatexPrinter):
         return r"\begin{cases} " + r" \\ ".join(rows) + r" \end{cases}"
 
     def _print_And(self, expr: sp.And) -> str:
-        """Print several relations side by side, two that meet as one chain."""
-        if len(expr.args) == 2 and (found := _chain(*expr.args) or _chain(*reversed(expr.args))):
-            (low, first), middle, (second, high) = found
+        """Print several relations side by side, ``a < x`` and ``x < b`` as one chain."""
+        if len(expr.args) == 2 and (chain := _chain(*expr.args) or _chain(*reversed(expr.args))):
+            (low, first), middle, (second, high) = chain
             return f"{self._print(low)} {first} {self._print(middle)} {second} {self._print(high)}"
         return r", \quad ".join(self._print(part) for part in expr.args)
 
@@ -168,7 +168,7 @@ _Chain = tuple[tuple[sp.Expr, str], sp.Expr, tuple[str, sp.Expr]]
 
 
 def _chain(left: sp.Basic, right: sp.Basic) -> _Chain | None:
-    """Return what ``low < x`` and ``x < high`` bound and how, None where they do not meet."""
+    """Return the parts of ``low < x < high`` from its two relations, None for other pairs."""
     bounds = (sp.Ge, sp.Gt, sp.Le, sp.Lt)
     if not (isinstance(left, bounds) and isinstance(right, bounds)) or left.gts != right.lts:
         return None
@@ -196,7 +196,7 @@ def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -
 
 
 def inline(relation: sp.Basic) -> str:
-    r"""Return LaTeX of a relation for a line of text: its fractions are written on the line.
+    r"""Return LaTeX of a relation for a line of text, with its fractions on the line.
 
     >>> from derive.symbols import symbol
     >>> inline(symbol("f_c") < sp.Rational(1, 3))

@@ -1,11 +1,11 @@
-r"""LaTeX formulas read into pieces, and how wide each piece is on the page.
+r"""The pieces of LaTeX formulas and their widths on the page.
 
 Overview
-    `parse` splits a formula into pieces: atoms, which are never looked into, and fences
-    (``\left ... \right``) and fractions, which can be taken apart. Relations and signs are marked,
-    since a line may start with them. The pieces' texts put together are the formula again, but for
-    braces that mean nothing.
-    Widths are estimates in em, good to a fifth or so: enough to see what does not fit.
+    `parse` splits a formula into pieces: atoms, which stay whole, and fences
+    (``\left ... \right``) and fractions, which can be opened. Relations and signs are marked,
+    since a line may start with them. The texts of all pieces together are the formula again,
+    except for redundant braces.
+    Widths are estimates in em with an error of about a fifth, enough to find lines that do not fit.
 """
 
 from __future__ import annotations
@@ -37,9 +37,12 @@ _WIDTHS = {
 
 @dataclass(frozen=True)
 class Piece:
-    """A part of a formula: its LaTeX, its width in em, how many fractions stack inside it, and in
-    how many opened fences it stands. `parts` are the inside of a fence or root, or numerator
-    and denominator; `delimiters` those of the fence."""
+    """A part of a formula: its LaTeX and its width in em.
+
+    `height` is the number of fractions stacked inside it, `depth` the number of opened fences
+    around it. `parts` are the inside of a fence or root, or numerator and denominator;
+    `delimiters` those of the fence.
+    """
 
     tex: str
     width: float
@@ -51,22 +54,22 @@ class Piece:
 
 
 def parse(latex: str) -> tuple[Piece, ...]:
-    """The pieces of a formula, in order."""
-    return _Reader(latex).pieces()
+    """Return the pieces of a formula, in order."""
+    return _Parser(latex).pieces()
 
 
 def total(pieces: Iterable[Piece]) -> float:
-    """The width of pieces side by side, in em."""
+    """Return the width of pieces side by side, in em."""
     return sum(piece.width for piece in pieces)
 
 
 def source(pieces: Iterable[Piece]) -> str:
-    """The LaTeX of pieces side by side."""
+    """Return the LaTeX of pieces side by side."""
     return "".join(piece.tex for piece in pieces)
 
 
 def width(latex: str) -> float:
-    r"""Estimated width of a formula in em.
+    r"""Return the estimated width of a formula in em.
 
     >>> width("x") < width(r"\frac{x + y}{2}") < width("x + y + 2")
     True
@@ -75,12 +78,12 @@ def width(latex: str) -> float:
 
 
 def _total_inside(part: Iterable[Piece]) -> float:
-    """The width of pieces inside a fraction, where other fractions are set small."""
+    """Return the width of pieces inside a fraction, where other fractions are set small."""
     return sum(piece.width * (_SCRIPT if piece.kind == "fraction" else 1.0) for piece in part)
 
 
 def fence(opening: str, inner: tuple[Piece, ...], closing: str) -> Piece:
-    """Pieces between delimiters that grow with them; one with a half missing stays whole."""
+    """Return pieces between delimiters that grow with them; an atom if one delimiter is missing."""
     return Piece(
         rf"\left{opening}{source(inner)}\right{closing}",
         total(inner) + 1.0,
@@ -92,22 +95,22 @@ def fence(opening: str, inner: tuple[Piece, ...], closing: str) -> Piece:
 
 
 def rows(body: str) -> list[str]:
-    r"""The rows of a table, parted by ``\\``; tables inside it are left whole."""
-    found, depth = [""], 0
+    r"""Return the rows of a table, separated by ``\\``; tables inside it stay whole."""
+    result, depth = [""], 0
     for token in _TOKEN.findall(body):
         depth += {r"\begin": 1, r"\end": -1}.get(token, 0)
         if token == r"\\" and depth == 0:
-            found.append("")
+            result.append("")
         else:
-            found[-1] += token
-    return found
+            result[-1] += token
+    return result
 
 
 def _tallest(pieces: Iterable[Piece]) -> int:
     return max((piece.height for piece in pieces), default=0)
 
 
-class _Reader:
+class _Parser:
     """A cursor over the tokens of a formula; each method reads one construct."""
 
     def __init__(self, latex: str) -> None:
@@ -115,18 +118,18 @@ class _Reader:
         self._next = 0
 
     def pieces(self, end: str = "") -> tuple[Piece, ...]:
-        """Pieces up to the token `end`, which is read too."""
-        found: list[Piece] = []
+        """Return the pieces up to the token `end`, which is read too."""
+        result: list[Piece] = []
         script = 0.0
         while (token := self._take()) not in ("", end):
             if token in "^_":
                 piece = self._script(token, script)
                 script = max(script, piece.width)
             else:
-                piece = self._piece(token, found)
+                piece = self._piece(token, result)
                 script = piece.width if token in _OVER_SCRIPTS else 0.0
-            found.append(piece)
-        return tuple(found)
+            result.append(piece)
+        return tuple(result)
 
     def _take(self) -> str:
         self._next += 1
@@ -158,14 +161,14 @@ class _Reader:
         return Piece(token, _plain(token))
 
     def _script(self, token: str, beside: float) -> Piece:
-        """A sub- or superscript: the second at a letter takes no room but what it has more."""
+        """Return a sub- or superscript; the second one of a letter adds only its excess width."""
         inner = self._argument()
-        written = source(inner)
-        tex = token + (written if len(written) == 1 else f"{{{written}}}")
+        body = source(inner)
+        tex = token + (body if len(body) == 1 else f"{{{body}}}")
         return Piece(tex, max(_SCRIPT * total(inner) - beside, 0.0))
 
     def _group(self) -> Piece:
-        """Braces; around a fence alone they mean nothing."""
+        """Return a group in braces, which are redundant around a single fence."""
         inner = self.pieces("}")
         solid = [piece for piece in inner if not piece.tex.isspace()]
         if len(solid) == 1 and solid[0].kind == "fence":
@@ -208,7 +211,7 @@ class _Reader:
 
 
 def _is_operand(before: list[Piece]) -> bool:
-    """Whether a sign behind these pieces joins two terms."""
+    """Return whether a sign after these pieces joins two terms."""
     solid = [piece for piece in before if not piece.tex.isspace()]
     return bool(solid) and solid[-1].kind not in ("relation", "sign") and solid[-1].tex != "&"
 

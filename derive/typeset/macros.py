@@ -1,13 +1,13 @@
-r"""LaTeX macros: one per equation, to \input into a report, and what their symbols mean.
+r"""LaTeX macros: one per equation, to \input into a report, and a table of their symbols.
 
 Key results
     macro_name      \EqWearPerCycle for (21)
     macros          the text of a file that defines them, and the table of their symbols
-    WIDTH           how wide they are at most
+    WIDTH           their greatest width
     occurring       the quantities that occur in expressions, in the order of the vocabulary
     nomenclature    a tabular with the symbols of equations, their meanings and units
     meaning, unit   of one quantity, in LaTeX
-    written         a template of LaTeX with its holes filled
+    rendered        the text of a template of LaTeX
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ from .reading import typed
 _DIGITS = ("Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine")
 
 WIDTH = 29.0
-"""In em: a line of ``article`` has 34.5, of which a number takes some."""
+"""In em: a line of ``article`` has 34.5, and the equation's number needs some."""
 _NUMBER = 4.5
 _POINTS = {"pt": 1.0, "mm": 72.27 / 25.4, "cm": 72.27 / 2.54, "in": 72.27}
 _UNITS = {"1": "", "MPa mm^2": "N"}
-"""Units that have a name."""
+"""Units with another name; a dimensionless quantity has none."""
 _LENGTH = re.compile(r"(\d+(?:\.\d+)?)\s*(pt|mm|cm|in)")
 
 
@@ -49,40 +49,40 @@ def macro_name(equation: Equation) -> str:
 
 
 def room(length: str, size: float = 10.0) -> float:
-    """Return the em that a formula has beside its number in a line of this length.
+    """Return the width in em of a formula beside its number, in a line of this length.
 
-    ``size`` is that of the type in points; ValueError for what is no length.
+    ``size`` is that of the type in points; ValueError for a text that is no length.
 
     >>> round(room("246pt"), 1), round(room("86mm"), 1)
     (20.1, 20.0)
     """
-    found = _LENGTH.fullmatch(length.strip())
-    if found is None or (width := float(found[1]) * _POINTS[found[2]]) < 100.0:
+    match = _LENGTH.fullmatch(length.strip())
+    if match is None or (width := float(match[1]) * _POINTS[match[2]]) < 100.0:
         raise ValueError(f"{length}: give a width of 100pt or more, such as 246pt or 86mm")
     return width / size - _NUMBER
 
 
-def written(template: str, **holes: Any) -> str:
+def rendered(template: str, **context: Any) -> str:
     """Return the text of a template of LaTeX."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=PackageLoader(__package__), undefined=StrictUndefined, keep_trailing_newline=True,
         trim_blocks=True, variable_start_string="<<", variable_end_string=">>",
         block_start_string="<%", block_end_string="%>", comment_start_string="<#",
         comment_end_string="#>",
     )  # fmt: skip
-    return made.get_template(f"{template}.jinja").render(broken=broken, **holes)
+    return environment.get_template(f"{template}.jinja").render(broken=broken, **context)
 
 
 def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
     r"""Return LaTeX that defines a macro for each equation, \EqNote and \WearNomenclature.
 
     \EqNote{14} is the equation of that id. Formulas wider than ``width`` em are broken. Needs
-    amsmath, and booktabs for the nomenclature: what the symbols of these equations mean. A second
-    file may define some of them again.
+    amsmath, and booktabs for the nomenclature, the table of the symbols of these equations. A
+    second file may define some of the macros again.
     """
-    return written(
+    return rendered(
         "macros",
         equations=equations,
         width=width,
@@ -98,7 +98,7 @@ def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
     >>> [quantity.name for quantity in quantities([derive.equation("7c")])]
     ['t', 'U_c', 'p', 'k']
     """
-    return occurring(e for found in equations for e in (*found.shown, *found.where))
+    return occurring(e for entry in equations for e in (*entry.shown, *entry.where))
 
 
 def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
@@ -111,8 +111,8 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
     atoms = (e.atoms(sp.Symbol, AppliedUndef) for e in expressions)
     used = {
         atom.func.__name__ if isinstance(atom, AppliedUndef) else atom.name
-        for some in atoms
-        for atom in some
+        for group in atoms
+        for atom in group
     }
     return tuple(quantity for name, quantity in QUANTITIES.items() if name in used)
 
@@ -120,7 +120,7 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
 def nomenclature(equations: Iterable[Equation]) -> str:
     """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
     names = quantities(equations)
-    return written("nomenclature", quantities=names, meaning=meaning, unit=unit).rstrip()
+    return rendered("nomenclature", quantities=names, meaning=meaning, unit=unit).rstrip()
 
 
 def meaning(quantity: Quantity) -> str:

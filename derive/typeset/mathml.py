@@ -1,6 +1,6 @@
-"""LaTeX as MathML Core, by the converter math-core of the extra ``report``: no script on a page.
+"""LaTeX as MathML Core, by the converter math-core of the extra ``report``; pages need no script.
 
-Each raises `ValueError` for LaTeX outside the subset of the converter.
+Each function raises `ValueError` for LaTeX outside the subset of the converter.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def display(latex: str) -> str:
 
 
 def block(latex: str) -> str:
-    """Return a displayed formula, broken where it is too wide for a page."""
+    """Return a displayed formula, broken if it is too wide for a page."""
     return display(broken(latex))
 
 

@@ -1,8 +1,8 @@
-"""Presentation: a claim that nobody laid out, in the order in which an author would write it.
+"""Presentation: the order of terms and factors in a claim without a layout by an author.
 
 SymPy sorts terms and factors by rules of its own, and prefers ``1/2 - tanh(2 h/sigma - 4)/2``.
-Here what is added comes before what is subtracted, sums and functions come after symbols, and the
-note's contact law looks like the note's.  The value is not touched: a test asserts it.
+Here positive terms precede negative ones, symbols precede sums and functions, and the contact law
+has the note's form.  The value does not change: a test asserts it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from sympy.core.relational import Relational
 from ..symbols import t
 
 _HALF = sp.Rational(1, 2)
-#: What comes first in a product, in the order of the note.
+#: The first factors of a product, in the order of the note.
 _FIRST = (
     "f_a", "f_c", "kappa", "K_a", "K_c", "H_a", "H_c", "k", "b", "L", "V", "T", "p_max",
 )  # fmt: skip
@@ -52,7 +52,7 @@ def _sum(expr: sp.Add) -> sp.Basic:
 
 
 def _is_half(expr: sp.Expr) -> bool:
-    """Whether an expression is ``1/2 + tanh(x)/2``, a share that is better written as a half."""
+    """Return whether an expression is ``1/2 + tanh(x)/2``, to be written ``(1 + tanh(x))/2``."""
     return bool(
         expr.is_Add and len(expr.args) == 2 and expr.args[0] == _HALF and expr.args[1].has(sp.tanh)
     )
@@ -64,7 +64,7 @@ def _doubled(expr: sp.Add) -> sp.Expr:
 
 
 def _upright(term: sp.Expr) -> sp.Expr:
-    """Return ``-tanh(-x)`` for a term ``tanh(x)`` where that reads better, unevaluated."""
+    """Return a term in ``tanh(x)`` with ``-tanh(-x)`` where x begins with a minus, unevaluated."""
     factors = sp.Mul.make_args(term)
     inner = [f for f in factors if isinstance(f, sp.tanh)]
     if len(inner) != 1 or not _starts_negative(inner[0].args[0]):
@@ -94,7 +94,7 @@ def _term(term: sp.Expr) -> sp.Basic:
 
 
 def _product(expr: sp.Mul) -> sp.Basic:
-    """Return a fraction of numbers and symbols, followed by what has an inner structure."""
+    """Return a fraction of numbers and symbols, followed by sums and functions."""
     plain, below, large = [], [], []
     for factor in expr.args:
         if _is_half(factor):
@@ -116,7 +116,7 @@ def _product(expr: sp.Mul) -> sp.Basic:
 
 
 def _place(factor: sp.Expr) -> tuple[bool, bool, int]:
-    """Return where a factor stands in a product: data, other symbols, fields, time."""
+    """Return the rank of a factor in a product: data, other symbols, fields, time."""
     base = factor.base if factor.is_Pow else factor
     name = getattr(base, "name", "")
     first = _FIRST.index(name) if name in _FIRST else len(_FIRST)
@@ -132,5 +132,5 @@ def _structured(factor: sp.Expr) -> bool:
 
 
 def _is_name(expr: sp.Expr) -> bool:
-    """Whether an expression is a symbol or a field now."""
+    """Return whether an expression is a symbol, or a field at time t."""
     return expr.is_Symbol or (isinstance(expr, AppliedUndef) and expr.args == (t,))

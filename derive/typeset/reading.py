@@ -1,15 +1,15 @@
-r"""Formulas in plain text: what one types into a terminal, read as LaTeX.
+r"""Formulas in plain text, typeset in LaTeX.
 
 Overview
-    Titles, remarks and evidence are written as ``h/sigma -> 1/f_c`` or ``4.6e-8 mm``.  A formula
-    is what one regular expression matches: sides with relations between them, sums of products of
-    names, small numbers and brackets.  It has to hold a name of the model, a relation or a power;
-    a letter alone that may be a word is one.  A number with a point, an exponent or three digits
-    is a result, and stands outside of formulas.
+    Titles, remarks and evidence are written as ``h/sigma -> 1/f_c`` or ``4.6e-8 mm``.  One regular
+    expression defines formulas: sides with relations between them, sums of products of names,
+    small numbers and brackets.  A formula must contain a name of the model, a relation or a power;
+    a single letter that may be a word is a word.  A number with a point, an exponent or three
+    digits is a result, and not part of a formula.
 Key results
-    read    the parts of a text
-    typed   a text with its formulas in LaTeX
-    Part    words, a formula, a number, or a name that is none of the model's
+    read       the fragments of a text
+    typed      a text with its formulas in LaTeX
+    Fragment   words, a formula, a number, or a name that is none of the model's
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _NAMES = {name: quantity.latex for name, quantity in QUANTITIES.items()} | {
 _RELATIONS = {"<=": r"\le", ">=": r"\ge", "!=": r"\ne", "->": r"\to", "=": "=", "<": "<", ">": ">"}
 _FUNCTIONS = ("tanh", "ln", "sin", "cos", "max", "min")
 _AMBIGUOUS = "aAIidmgb"
-"""Letters that are words more often than not."""
+"""Letters that are more often words than symbols."""
 
 
 def _any(words: Iterable[str]) -> str:
@@ -47,7 +47,7 @@ _SLOPE = rf"\bd ?{_BARE}/d ?{_BARE}{_END}"
 _FUNCTION = rf"(?<!\w){_any(_FUNCTIONS)}{_END}"
 _SMALL = r"(?<![\w.])\d{1,2}(?!\d|\.\d|e[-+]?\d|[A-Za-z]\w)"
 _SURE, _UNSURE = 0xE000, 0xF000
-"""Private characters for brackets whose inside is a formula, or may be one."""
+"""Private characters for brackets with a formula inside, and with a possible formula."""
 _GROUP = "[\ue000-\uf8ff]"
 _ATOM = rf"(?:{_SLOPE}|{_NAME}{_GROUP}?+|{_SMALL}|<{_NAME}>|{_GROUP})"
 _POWER = rf"{_ATOM}(?:\^-?{_ATOM})?"
@@ -55,7 +55,7 @@ _FACTOR = rf"(?:{_FUNCTION} ?)?{_POWER}"
 
 
 def _sum(beside: str) -> str:
-    """Return the expression of a sum; ``beside`` is what may stand beside a factor."""
+    """Return the regular expression of a sum; ``beside`` is that of a factor's neighbour."""
     product = rf"{_FACTOR}(?: ?[*/] ?{_FACTOR}| ?(?={beside}){_FACTOR})*"
     return rf"[-+]?{product}(?:(?: [-+] |[-+]){product})*"
 
@@ -77,22 +77,22 @@ _TOKEN = re.compile(
 )
 
 
-class Part(NamedTuple):
-    """A piece of a text: words as they stand, a formula in LaTeX, a number or another name."""
+class Fragment(NamedTuple):
+    """A part of a text: unchanged words, a formula in LaTeX, a number or another name."""
 
     kind: Literal["words", "formula", "number", "identifier"]
     text: str
 
 
-def read(text: str) -> tuple[Part, ...]:
-    """Return the parts of a text, in order; a number is never inside words or a formula's side.
+def read(text: str) -> tuple[Fragment, ...]:
+    """Return the fragments of a text; a number is never inside words or a formula's side.
 
     >>> [part.text for part in read("at h = 3 sigma, for f_c = 0.25 and a load")]
     ['at ', 'h = 3 \\\\bar{\\\\sigma}', ', for ', 'f_c =', ' ', '0.25', ' and a load']
     """
     groups: list[str] = []
     if re.search(_GROUP, text):
-        return (Part("words", text),)
+        return (Fragment("words", text),)
 
     def fold(brackets: re.Match[str]) -> str:
         groups.append(brackets[0])
@@ -114,37 +114,37 @@ def typed(text: str) -> str:
 
 
 def _is_certain(text: str) -> bool:
-    """Return whether a match is a formula, and no words that happen to look like one."""
+    """Return whether a match is a formula, not words that resemble one."""
     return _CERTAIN.search(text) is not None
 
 
-def _parts(text: str, groups: Sequence[str]) -> Iterator[Part]:
-    """Yield the parts of a text in which groups stand for brackets."""
+def _parts(text: str, groups: Sequence[str]) -> Iterator[Fragment]:
+    """Yield the fragments of a text in which private characters replace brackets."""
     end = 0
-    for found in _PART.finditer(text):
-        kind, inside = str(found.lastgroup), _unfolded(found[0], groups)
+    for match in _PART.finditer(text):
+        kind, inside = str(match.lastgroup), _unfolded(match[0], groups)
         if kind == "words" or (kind == "formula" and not _is_certain(inside)):
             if not _NUMBER_ALONE.fullmatch(inside):
                 continue
             kind = "number"
-        yield from _words(text[end : found.start()], groups)
-        shown = _latex(found[0], groups).strip() if kind == "formula" else inside
-        yield Part(kind, shown)  # type: ignore[arg-type]
-        yield Part("words", " " * (kind == "formula" and found[0].endswith(" ")))
-        end = found.end()
+        yield from _words(text[end : match.start()], groups)
+        shown = _latex(match[0], groups).strip() if kind == "formula" else inside
+        yield Fragment(kind, shown)  # type: ignore[arg-type]
+        yield Fragment("words", " " * (kind == "formula" and match[0].endswith(" ")))
+        end = match.end()
     yield from _words(text[end:], groups)
 
 
-def _words(text: str, groups: Sequence[str]) -> Iterator[Part]:
-    """Yield words, and what stands in their brackets."""
+def _words(text: str, groups: Sequence[str]) -> Iterator[Fragment]:
+    """Yield words, and the fragments inside their brackets."""
     for piece in re.split(f"({_GROUP})", text):
         if re.fullmatch(_GROUP, piece):
             brackets = _inner(piece, groups)
-            yield Part("words", brackets[0])
+            yield Fragment("words", brackets[0])
             yield from _parts(brackets[1:-1], groups)
-            yield Part("words", brackets[-1])
+            yield Fragment("words", brackets[-1])
         else:
-            yield Part("words", piece)
+            yield Fragment("words", piece)
 
 
 def _unfolded(text: str, groups: Sequence[str]) -> str:

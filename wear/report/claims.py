@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from derive.note.claim_checks import SYMBOLIC
-from derive.note.claims import CLAIMS, Claim, Finding, Verdict
+from derive.note.claims import CLAIMS, Finding, NoteClaim, Verdict
 from wear.report import note
 from wear.report.note import PRINTED
 from wear.solver import solve
@@ -31,7 +31,7 @@ LEAST_SLOPE = 1.0 / 8.0
 class Entry(NamedTuple):
     """One line of the ledger."""
 
-    claim: Claim
+    claim: NoteClaim
     finding: Finding
 
 

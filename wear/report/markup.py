@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 
-from derive.typeset.reading import Part, read
+from derive.typeset.reading import Fragment, read
 from wear.report.number import Number, grouped
 
 _MARK = re.compile(
@@ -64,7 +64,7 @@ def _between(text: str) -> str:
     return "".join(map(_part, read(text)))
 
 
-def _part(part: Part) -> str:
+def _part(part: Fragment) -> str:
     match part.kind:
         case "formula":
             return f"${part.text}$"
