@@ -1,14 +1,14 @@
-"""The export: files that Coq compiles, and the record of what it closed.
+"""The export: files for Coq, and the record of the steps that it closed.
 
 Overview
-    A file a section of the catalogue, so that two of them compile at once; what is not closed
-    is exported as a proposition without proof.  The record says of every statement, by its
-    hash, whether Coq closed it and how, or why not; users without Coq read it, and a check with
-    Coq fails where it differs.
+    Each section of the catalogue is a file, so that two of them compile at once; a step that is
+    not closed is exported as a proposition without proof.  The record has for every statement,
+    by its hash, whether Coq closed it and by which proof, or the reason why not.  Users without
+    Coq read it; a check with Coq fails where it differs.
 Key results
     Export      the files, from judgements and a record
-    compile     what Coq says of them
-    AXIOMS      what theorems may rest on: the classical axioms of the reals
+    compiled    the faults that Coq finds in them
+    AXIOMS      the axioms that theorems may rest on: those of the classical reals
 """
 
 from __future__ import annotations
@@ -57,12 +57,12 @@ MAKEFILE = """\
 
 
 class MissingError(OSError):
-    """Coq or a library of it is not installed; the message says how to install it."""
+    """Coq or one of its libraries is not installed; the message has the command to install it."""
 
 
 @dataclass(frozen=True)
 class Export:
-    """The files of some equations, with the proofs of what the record calls closed."""
+    """The files of some equations, with proofs of the steps that the record has as closed."""
 
     equations: tuple[Equation, ...]
     known: Record = field(default_factory=record)
@@ -79,12 +79,12 @@ class Export:
 
     @property
     def refused(self) -> dict[str, str]:
-        """Return the claims that Coq's library has no words for, with the reason."""
+        """Return the claims that cannot be stated with Coq's library, with the reason."""
         return self._stated[1]
 
     @property
     def counts(self) -> dict[str, int]:
-        """Return how many steps there are, how many are closed, and cannot be stated."""
+        """Return the numbers of all steps, of closed ones, and of those that cannot be stated."""
         proved = sum(text.count("\nLemma ") for text in self.lemmas.values())
         return {
             "steps": len(self.steps) + len(self.refused),
@@ -94,7 +94,7 @@ class Export:
 
     @property
     def unrecorded(self) -> str:
-        """Return what the record does not say of these steps."""
+        """Return a line for each step that the record lacks."""
         missing = (s for s in self.steps if s.key not in self.known)
         return "".join(f"not in the record: {s.rule} {s.relation}\n" for s in missing)
 
@@ -105,24 +105,24 @@ class Export:
 
     def lemma(self, step: Step, row: Row) -> str:
         """Return a step with its proof, or as an open proposition."""
-        said = f"{{w : world}} :\n  {step.statement.text}"
+        signature = f"{{w : world}} :\n  {step.statement.text}"
         title = f"(* {step.rule}: {step.judgement.name or 'no name'} *)\n"
         if not row.get("closed"):
-            said = said.replace(" :\n", " : Prop :=\n", 1)
+            signature = signature.replace(" :\n", " : Prop :=\n", 1)
             reason = row.get("reason", "not in the record")
-            return f"{title}(* open: {reason} *)\nDefinition open_{step.name} {said}.\n"
+            return f"{title}(* open: {reason} *)\nDefinition open_{step.name} {signature}.\n"
         proof = proofs.script(step, row.get("way"))
-        return f"{title}Lemma {step.name} {said}.\nProof.\n{proof}\nQed.\n"
+        return f"{title}Lemma {step.name} {signature}.\nProof.\n{proof}\nQed.\n"
 
     @cached_property
     def groups(self) -> dict[str, list[str]]:
         """Return the names of steps by the section of the first equation that needs them."""
-        left = {step.judgement: step.name for step in self.steps}
+        remaining = {step.judgement: step.name for step in self.steps}
         groups: dict[str, list[str]] = {}
         for equation in self.equations:
-            made = groups.setdefault(_file_name(equation.section), [])
-            made += [left.pop(judgement) for judgement in equation.steps if judgement in left]
-        return {name: made for name, made in groups.items() if made}
+            names = groups.setdefault(_file_name(equation.section), [])
+            names += [remaining.pop(step) for step in equation.steps if step in remaining]
+        return {group: names for group, names in groups.items() if names}
 
     @property
     def world(self) -> str:
@@ -152,12 +152,12 @@ class Export:
     @property
     def refuting(self) -> dict[str, Step]:
         """Return the steps that contradict claims of the note; none unless all are closed."""
-        wanted = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
-        found = {i: s for i, k in wanted.items() if (s := self._stated[0][k]).closed}
-        return found if len(found) == len(refutations.NEEDS) else {}
+        keys = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
+        closed = {i: s for i, k in keys.items() if (s := self._stated[0][k]).closed}
+        return closed if len(closed) == len(refutations.NEEDS) else {}
 
     def _assumptions(self, files: Iterable[str]) -> str:
-        """Return the file that prints what all theorems together rest on."""
+        """Return the file that prints the axioms of all theorems together."""
         proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
         proved += refutations.NAMES.values() if self.refuting else ()
         everything = ", ".join(f"@{name}" for name in proved)
@@ -167,7 +167,7 @@ class Export:
         )
 
     def write(self, folder: Path, files: Mapping[str, str] | None = None) -> None:
-        """Write library, files (all of them, if none are named) and a Makefile for them."""
+        """Write library, files (default: all of them) and a Makefile for them."""
         files = self.files if files is None else files
         folder.mkdir(parents=True, exist_ok=True)
         for name in THEOREMS:
@@ -179,12 +179,12 @@ class Export:
 
 
 def _importing(files: Iterable[str]) -> str:
-    """Return the first lines of a file that rests on others."""
+    """Return the first lines of a file, which import other files."""
     return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
 
 
 def _update(path: Path, text: str) -> None:
-    """Write a file unless it is there already, compiled perhaps."""
+    """Write a file unless it has this text already: an unchanged one is not compiled again."""
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
 
@@ -194,9 +194,9 @@ def _file_name(section: str) -> str:
 
 
 def compiled(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
-    """Compile an export; return what Coq says against it, empty where all is proved.
+    """Compile an export; return the faults that Coq reports, empty if all is proved.
 
-    MissingError where Coq or a library is not installed.
+    MissingError if Coq or a library is not installed.
     """
     if shutil.which("coqc") is None or shutil.which("make") is None:
         raise MissingError(f"coqc and make are needed: apt install make {PACKAGES}")
@@ -211,9 +211,9 @@ def compiled(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
         raise MissingError(f"a library of Coq is missing: apt install {PACKAGES}")
     if done.returncode or targets:
         return done.stdout + done.stderr
-    said = (folder / "Assumptions.log").read_text(encoding="utf-8")
-    if "Closed under the global context" not in said and "Axioms:" not in said:
-        return "Coq does not say what the theorems rest on\n"
-    found = set(re.findall(r"^([\w.]+)\s*:", said.partition("Axioms:")[2], re.MULTILINE))
-    other = {name for name in found - AXIOMS if not name.startswith(MACHINE_INTEGERS)}
+    report = (folder / "Assumptions.log").read_text(encoding="utf-8")
+    if "Closed under the global context" not in report and "Axioms:" not in report:
+        return "Coq does not report the axioms of the theorems\n"
+    axioms = set(re.findall(r"^([\w.]+)\s*:", report.partition("Axioms:")[2], re.MULTILINE))
+    other = {name for name in axioms - AXIOMS if not name.startswith(MACHINE_INTEGERS)}
     return "".join(f"an axiom that is not pinned: {name}\n" for name in sorted(other))

@@ -1,10 +1,10 @@
 """Proofs of limits for t -> oo.
 
 Overview
-    A limit passes through an expression that SymPy finds: what is known to have a limit takes
-    the place of the load, what diverges that of the wear.
+    A limit passes through an expression that SymPy finds: the load is expressed by quantities
+    with known limits, the wear by quantities that diverge.
 Key results
-    proof    the lines of a proof by what is known to have a limit
+    proof    the lines of a proof by known limits
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _T = symbol("T")
 
 
 def proof(step: Step) -> list[str]:
-    """Return the lines of a proof by what is known to have a limit."""
+    """Return the lines of a proof by known limits."""
     relation = step.relation
     if not relation.has(sp.Limit):
         return list(_named(step))
@@ -33,7 +33,7 @@ def proof(step: Step) -> list[str]:
 
 
 def _named(step: Step) -> Iterator[str]:
-    """A name for a limit: limits are unique."""
+    """Yield the proof that a limit equals its name, since limits are unique."""
     name = step.relation.lhs
     for limit in (s for s in step.limits if isinstance(s.relation.lhs, sp.Limit)):
         for premise in step.statement.premises:
@@ -70,10 +70,10 @@ def _known(step: Step) -> list[str]:
 
 
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
-    """Write the expression with what has a limit, and let the limit pass through it."""
-    found, _ = _composed(step, inside)
+    """Write the expression in terms of known limits, and let the limit pass through it."""
+    composed, _ = _composed(step, inside)
     equations = [s for s in step.frontier if s.equates and not s.relation.has(sp.Limit)]
-    lines = [f"apply (tends_ext (fun t => {found})).", "{ intros t Ht."]
+    lines = [f"apply (tends_ext (fun t => {composed})).", "{ intros t Ht."]
     lines += step.signs()
     if inside.has(t + _T):
         lines += ["assert (HT : 0 <= T + t) by lra.", *step.signs("(T + t)", "HT")]
@@ -82,7 +82,7 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
 
 
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
-    """Return the expression in terms of what has a limit, as Coq writes it, and its limit."""
+    """Return the expression in terms of quantities with known limits, for Coq, and its limit."""
     for other in step.frontier:
         relation = other.relation
         if other.equates and not relation.has(sp.Limit) and other.timed:
@@ -103,14 +103,14 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
                     text,
                     sp.S.Zero if infinite else value,
                 )
-    found = term(inside)
+    composed = term(inside)
     for name, text in texts.items():
-        found = found.replace(name, text)
-    return found, inside.xreplace(values)
+        composed = composed.replace(name, text)
+    return composed, inside.xreplace(values)
 
 
 def _exists(step: Step, left: sp.Expr, right: sp.Expr) -> list[str]:
-    """Limits that are claimed equal, or a product with one that is claimed 0."""
+    """Return the proof that two limits are equal, or that a product with a limit is 0."""
     inner = [e for side in (left, right) for e in sorted(side.atoms(sp.Limit), key=str)]
     _, value = _composed(step, inner[0].args[0])
     passes = [_passes(step, limit.args[0]) for limit in inner]

@@ -1,12 +1,12 @@
 """SymPy expressions and relations as Coq terms, structure for structure.
 
 Overview
-    Nothing is evaluated: ``tanh(-x)`` stays what it is.  A quantity that varies is a function
+    Nothing is evaluated: ``tanh(-x)`` stays unchanged.  A quantity that varies is a function
     on R, a claim about an instant holds for every t >= 0, a limit for t -> oo is Coquelicot's.
 Key results
     term          an expression as a term of type R
     proposition   a relation between expressions as a Prop
-    always        the same, for every t >= 0 where it speaks of t
+    always        the same for every t >= 0, if it contains t
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class UntranslatableError(ValueError):
 
 
 def name(text: str) -> str:
-    """Return a name that Coq accepts and that hides nothing of its library.
+    """Return a name that Coq accepts and that shadows nothing in its library.
 
     >>> name("u_c"), name("R"), name("lambda")
     ('u_c', 'R_', 'lambda')
@@ -48,7 +48,7 @@ def name(text: str) -> str:
 
 
 def field(expr: AppliedUndef) -> str:
-    """Return the name of a function; what the vocabulary has not, may be a symbol's name too."""
+    """Return the name of a function; one outside the vocabulary may share a symbol's name."""
     text = expr.func.__name__
     return name(text) if text in QUANTITIES or text == "phi" else f"{name(text)}_of"
 
@@ -64,17 +64,17 @@ def term(expr: sp.Expr) -> str:
     >>> term(2 - sp.tanh(sp.Symbol("x")) / sp.Symbol("y", positive=True))
     '2 - (tanh x/y)'
     """
-    return _Printer().doprint(expr)
+    return _CoqPrinter().doprint(expr)
 
 
 def _inner(expr: sp.Expr) -> str:
-    """Return a term that may stand as an argument."""
+    """Return a term in brackets unless it is a name, for use as an argument."""
     text = term(expr)
     return text if text.replace("_", "").isalnum() else f"({text})"
 
 
-class _Printer(StrPrinter):
-    """Terms as SymPy writes them, but for functions, powers and what is bound."""
+class _CoqPrinter(StrPrinter):
+    """SymPy's text printer with Coq's forms of functions, powers and bound variables."""
 
     def _print(self, expr: sp.Expr, **_: object) -> str:
         if not isinstance(expr, _HEADS):
@@ -150,13 +150,13 @@ _HEADS = (
     *(sp.Rational, sp.Symbol, sp.Add, sp.Mul, sp.Pow, sp.Function, sp.Derivative, sp.Subs),
     *(sp.Integral, type(sp.pi), type(sp.E)),
 )
-"""What the printer has a term for; a piecewise expression is a function."""
+"""The classes of expressions that the printer supports; a Piecewise is a Function."""
 
 
 def proposition(relation: sp.Basic) -> str:
     """Return a relation as a proposition about the instant t.
 
-    A quantity that is given as a limit is one: the equation says that the limit exists.
+    An equation between a quantity and a limit asserts that the limit exists.
     """
     if isinstance(relation, Continuous):
         return f"continuous {field(relation.args[0])} t"
@@ -167,7 +167,7 @@ def proposition(relation: sp.Basic) -> str:
     if isinstance(relation, sp.Equality):
         return _equation(*relation.args)
     if relation.func not in _RELATIONS:
-        raise UntranslatableError(f"only words say that {relation}")
+        raise UntranslatableError(f"no relation states that {relation}")
     return _RELATIONS[relation.func].format(*map(term, relation.args))
 
 
@@ -184,7 +184,7 @@ def _equation(left: sp.Expr, right: sp.Expr) -> str:
 
 
 def limit(expr: sp.Limit, value: str | None) -> str:
-    """Return that a limit exists and is what the term ``value`` says; None: it is infinite."""
+    """Return that a limit exists and equals the term ``value``; None: it is infinite."""
     inner, variable, point, _ = expr.args
     if point != sp.oo:
         raise UntranslatableError(f"a limit at {point}")
@@ -194,12 +194,12 @@ def limit(expr: sp.Limit, value: str | None) -> str:
 
 @cache
 def always(relation: sp.Basic) -> str:
-    """Return a relation for every t >= 0; one that does not speak of t as it is."""
+    """Return a relation for every t >= 0; without a quantifier if t is not free in it."""
     if t not in relation.free_symbols or _bound(relation):
         return proposition(relation)
     return f"forall t, 0 <= t -> {proposition(relation)}"
 
 
 def _bound(relation: sp.Basic) -> bool:
-    """Return whether t occurs under a limit only."""
+    """Return whether t occurs only inside limits."""
     return t not in relation.replace(sp.Limit, lambda *_: sp.Integer(0)).free_symbols

@@ -1,10 +1,10 @@
-"""Proofs: the tactics that a lemma is tried with, written from the judgement.
+"""Proofs: the tactics to try for a lemma, written from the judgement.
 
 Overview
-    SymPy proposes, Coq disposes: what is written here may be wrong, and then does not compile.
-    A claim is reduced to an identity: the difference of its sides is a multiple of that of a
-    known relation, or an expression of manifest sign, once the equations that it rests on are
-    inserted.  Limits are in ``limits``.
+    SymPy proposes proofs, Coq checks them: a wrong proposal does not compile.  A claim is reduced
+    to an identity: after the equations that it rests on are inserted, the difference of its sides
+    is a multiple of that of a known relation, or an expression of manifest sign.  Limits are in
+    ``limits``.
 Key results
     script    the proof of a step
 """
@@ -28,7 +28,7 @@ _ATOMS = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 
 
 def script(step: Step, way: int | None = None) -> str:
-    """Return the proof of a step; by one of its ways, or by the first that succeeds."""
+    """Return the proof of a step: by the tactic with number ``way``, or the first to succeed."""
     cited = theorems.proof(step)
     if not cited and step.rule == "Discharge":
         cited = "\n".join(_discharged(step))
@@ -38,15 +38,15 @@ def script(step: Step, way: int | None = None) -> str:
         return f"{step.introduction}\n{cited}"
     start = ["intros t Ht.", *step.signs()] if step.timed else []
     ways = _equation if step.equates else inequality
-    found = dict.fromkeys(ways(step, step.relation))
+    tactics = dict.fromkeys(ways(step, step.relation))
     if way is not None:
-        return "\n".join((step.introduction, *start, f"{next(islice(found, way, None))}."))
-    tried = (f'timeout 12 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(found))
-    return "\n".join((step.introduction, *start, "first [\n  " + "\n| ".join(tried) + "]."))
+        return "\n".join((step.introduction, *start, f"{next(islice(tactics, way, None))}."))
+    trials = (f'timeout 12 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(tactics))
+    return "\n".join((step.introduction, *start, "first [\n  " + "\n| ".join(trials) + "]."))
 
 
 def _discharged(step: Step) -> Iterator[str]:
-    """Cite the first parent; the hypothesis that it has more follows from the other parents."""
+    """Yield the proof by the first parent, whose additional premises follow from the others."""
     (first, premises), *_ = step.missing
     for premise in premises:
         ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
@@ -58,16 +58,16 @@ def _discharged(step: Step) -> Iterator[str]:
 
 
 def _sources(step: Step) -> Iterator[list[Step]]:
-    """Return what a claim may follow from: the parents, or all that it rests on."""
-    own = [s for s in step.hypotheses if s.equates]
-    new = [s for s in own if all(s.statement.conclusion not in p.labels for p in step.parents)]
-    for steps in ([*step.frontier, *new], [*step.ancestors, *own]):
+    """Yield the possible sources of a claim: its parents, then all steps that it rests on."""
+    given = [s for s in step.hypotheses if s.equates]
+    new = [s for s in given if all(s.statement.conclusion not in p.labels for p in step.parents)]
+    for steps in ([*step.frontier, *new], [*step.ancestors, *given]):
         usable = {s.statement.conclusion: s for s in steps if step.timed or not s.timed}
         yield [s for s in usable.values() if not s.relation.has(sp.Limit)]
 
 
 def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
-    """Return the ways in which an equation may follow, likely ones first."""
+    """Yield tactics for an equation, likely ones first."""
     for steps in _sources(step):
         equations = [s for s in steps if s.equates]
         if equations:
@@ -79,7 +79,7 @@ def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
 
 
 def _factor(step: Step, given: sp.Equality) -> sp.Expr:
-    """Return c such that the claim may be c times an equation that is linear in its left side."""
+    """Return c for a claim that may be c times an equation, which is linear in its left side."""
     unknown, dummy = step.relation.lhs, sp.Dummy()
     flat = (given.lhs - given.rhs).xreplace({unknown: dummy})
     slope = sp.diff(flat, dummy)
@@ -89,7 +89,7 @@ def _factor(step: Step, given: sp.Equality) -> sp.Expr:
 
 
 def _inserted(goal: sp.Basic, equations: Sequence[sp.Equality]) -> sp.Basic:
-    """Insert equations into the goal as the tactic does: each into all others, too."""
+    """Insert equations into the goal and into each other, as the tactic does."""
     for i, equation in enumerate(equations):
         name, value = equation.args
         if isinstance(name, _ATOMS) and not value.has(name):
@@ -100,14 +100,14 @@ def _inserted(goal: sp.Basic, equations: Sequence[sp.Equality]) -> sp.Basic:
 
 
 def _put(relation: sp.Basic, name: sp.Expr, value: sp.Expr) -> sp.Basic:
-    """Insert an equation into a relation that is not to be decided by that."""
+    """Insert an equation into a relation without evaluating it."""
     if isinstance(relation, Relational):
         return relation.func(*(a.xreplace({name: value}) for a in relation.args), evaluate=False)
     return relation.func(*(_put(a, name, value) for a in relation.args), evaluate=False)
 
 
 def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
-    """Return the ways in which an inequality, or several, may follow."""
+    """Yield tactics for an inequality, or for several."""
     for steps in _sources(step):
         at_all_times = (s for s in step.hypotheses if s.timed)
         facts = [bound for s in (*steps, *at_all_times) for bound in _bounds(s.relation)]
@@ -123,11 +123,11 @@ def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
 
 
 Bound = tuple[sp.Expr, sp.Expr]
-"""What is not larger than what."""
+"""The smaller and the larger side."""
 
 
 def _bounds(fact: sp.Basic) -> Iterator[Bound]:
-    """Return the inequalities that a relation consists of."""
+    """Yield the inequalities in a relation."""
     for part in fact.args if isinstance(fact, sp.And) else (fact,):
         if isinstance(part, Inequality):
             if isinstance(part.lts, sp.Abs):
@@ -137,28 +137,28 @@ def _bounds(fact: sp.Basic) -> Iterator[Bound]:
 
 
 def _ways(goal: sp.Basic, facts: Sequence[Bound]) -> Iterator[str]:
-    """Return the ways of one inequality."""
+    """Yield tactics for one inequality."""
     if isinstance(goal, Relational):
         yield from _ordered(goal)
     yield "solve [arithmetic]"
     if isinstance(goal, Inequality):
-        forms = (*_multiples(goal, facts), *_rests(goal, facts), *_manifest(goal))
+        forms = (*_multiples(goal, facts), *_slacks(goal, facts), *_manifest(goal))
         yield from (f"manifest ({term(form)})" for form in forms)
     yield "same_as_known"
 
 
 def _multiples(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
-    """Return the difference of the sides as a multiple of that of a known inequality."""
+    """Yield the difference of the sides as multiples of the differences of known inequalities."""
     for low, high in facts:
         factor = sp.factor(sp.cancel((goal.gts - goal.lts) / (high - low)))
         if factor.count_ops() < (goal.gts - goal.lts).count_ops():
             yield sp.Mul(factor, high - low, evaluate=False)
 
 
-def _rests(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
-    """Return the difference of the sides with positive coefficients in the rests of inequalities.
+def _slacks(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
+    """Yield the difference of the sides with positive coefficients in the slacks of inequalities.
 
-    The rest of ``a <= b`` is ``b - a``; it takes the place of a field or datum in it.
+    The slack of ``a <= b`` is ``b - a``; it replaces a field or datum in it.
     """
     numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
     places: dict[sp.Expr, list[sp.Expr]] = {}
@@ -180,8 +180,11 @@ def _rests(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
 
 
 def _manifest(goal: Relational) -> Iterator[sp.Expr]:
-    """Return forms of the difference of the sides that may show its sign: with factors that are
-    positive where all quantities are below one, and with a numerator of separate terms."""
+    """Yield forms of the difference of the sides that may show its sign.
+
+    One has factors that are positive where all quantities are below one, the other a numerator of
+    separate terms.
+    """
     difference = goal.gts - goal.lts
     hidden = sorted(difference.atoms(sp.Function, sp.Derivative), key=sp.default_sort_key)
     functions = {f: sp.Symbol(f"field_{i}", real=True) for i, f in enumerate(hidden)}
@@ -197,7 +200,7 @@ def _manifest(goal: Relational) -> Iterator[sp.Expr]:
 
 
 def _ordered(goal: Relational) -> Iterator[str]:
-    """Return proofs by an increasing tanh, or a decreasing law, on the two sides."""
+    """Yield tactics by the increase of tanh, or the decrease of a law, on the two sides."""
     low, high = goal.lts, goal.gts
     form = term(next(_manifest(goal)))
     for a in sorted(low.atoms(sp.tanh), key=sp.default_sort_key) if high.has(sp.exp) else ():

@@ -1,10 +1,10 @@
-"""The record made anew: open steps are tried in a session of Coq, each way in turn.
+"""Renewal of the record: open steps are tried in a session of Coq, tactic by tactic.
 
 Overview
-    ``python -m derive.coq.prove`` writes ``record.json``.  Steps that are closed, and whose
-    proofs have not changed, are taken as proved here; ``make proof`` proves all of them.
+    ``python -m derive.coq.prove`` writes ``record.json``.  Closed steps whose proofs have not
+    changed are taken as proved here; ``make proof`` proves all of them.
 Key results
-    attempt    what closes of the steps that are hoped for
+    attempt    the record after one session
 """
 
 from __future__ import annotations
@@ -21,29 +21,32 @@ from .steps import RECORD, Row, Step, record
 
 _FOLDER = Path("build/prove")
 _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default Timeout 30.\n"
-"""Seconds for one sentence of a proof; one way of several has 12."""
+"""The time limits are in seconds, for one sentence of a proof; each of several tactics has 12."""
 
 
 def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
-    """Return the record after a session, and what failed because it cites what failed."""
+    """Try the steps ``hoped`` for; return the new record and those to try again.
+
+    These failed in a proof that cites another failed step.
+    """
     hopeful: dict[str, Row] = known | {h: {"closed": True} for h in hoped}
     before = Export(all_equations(), known)
-    made = Export(before.equations, hopeful)
+    export = Export(before.equations, hopeful)
     texts = {}
-    for step in made.steps:
+    for step in export.steps:
         row = known.get(step.key, {})
-        text = _lemma(made, step, hopeful.get(step.key, row))
+        text = _lemma(export, step, hopeful.get(step.key, row))
         if "\nProof." in text and text == _lemma(before, step, row):
             text = re.sub(r"Proof\..*Qed\.", "Admitted.", text, flags=re.DOTALL)
         elif hopeful.get(step.key, row).get("closed"):
-            text = _lemma(made, step, {"closed": True})
+            text = _lemma(export, step, {"closed": True})
         texts[step.name] = f"{text}Abort All.\nLocate {step.name}.\n"
-    said = _session(made, "".join(texts.values()))
-    closed = set(re.findall(r"Constant Top\.(step_\w+)", said))
-    ways = {name: int(way) for name, way in re.findall(r"WAY (step_\w+) (\d+)", said)}
+    output = _session(export, "".join(texts.values()))
+    closed = set(re.findall(r"Constant Top\.(step_\w+)", output))
+    ways = {name: int(way) for name, way in re.findall(r"WAY (step_\w+) (\d+)", output)}
     rows: dict[str, Row] = {}
     again = set()
-    for step in made.steps:
+    for step in export.steps:
         new: Row = {"rule": step.rule, "closed": step.name in closed}
         if step.name in ways:
             new["way"] = ways[step.name]
@@ -57,17 +60,17 @@ def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set
     return rows, again & hoped
 
 
-def _lemma(made: Export, step: Step, row: Row) -> str:
-    """Return the text of a lemma; as an open one where no proof can be proposed."""
+def _lemma(export: Export, step: Step, row: Row) -> str:
+    """Return the text of a lemma, an open one if no proof can be proposed."""
     try:
-        return made.lemma(step, row)
+        return export.lemma(step, row)
     except (LookupError, RuntimeError, StopIteration, TypeError, ValueError, AttributeError):
-        return made.lemma(step, {"reason": "no proof is proposed"})
+        return export.lemma(step, {"reason": "no proof is proposed"})
 
 
-def _session(made: Export, lemmas: str) -> str:
-    """Return what Coq says of lemmas; a failure ends one of them, not the session."""
-    made.write(_FOLDER, {"World": made.world})
+def _session(export: Export, lemmas: str) -> str:
+    """Return Coq's output for lemmas; a failure ends one of them, not the session."""
+    export.write(_FOLDER, {"World": export.world})
     if fault := compiled(_FOLDER, ("World.vo",)):
         sys.exit(fault)
     done = subprocess.run(
@@ -79,10 +82,10 @@ def _session(made: Export, lemmas: str) -> str:
 
 
 def main() -> None:
-    """Try what is open, again where that changes what can be cited, and write the record."""
+    """Try the open steps until no new one can be cited, and write the record."""
     rows = dict(record())
-    made = Export(all_equations(), rows)
-    hoped = {s.key for s in made.steps} - {h for h, row in rows.items() if row["closed"]}
+    steps = Export(all_equations(), rows).steps
+    hoped = {s.key for s in steps} - {h for h, row in rows.items() if row["closed"]}
     while hoped:
         rows, hoped = attempt(rows, hoped)
     lines = ",\n".join(f'"{key}": {json.dumps(rows[key])}' for key in sorted(rows))

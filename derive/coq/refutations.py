@@ -1,9 +1,8 @@
-"""What the note claims and Coq refutes, from the printed forms and the steps that contradict them.
+"""Claims of the note that Coq refutes, from the printed forms and steps that contradict them.
 
 Overview
-    A refutation has the premises of the step that it rests on, further ones that say where the
-    printed claim is tried, and the denial of the printed relation.  The lemmas stand in
-    ``library/refutations.jinja``.
+    A refutation has the premises of its step, further ones with the data of the counterexample,
+    and the negation of the printed relation.  The lemmas are in ``library/refutations.jinja``.
 Key results
     text     the lemmas, from the steps of some equations by id
     NAMES    their names, by the claim of the note that they decide
@@ -39,7 +38,7 @@ NEEDS = ("19", "18", "closure-ratio", "21")
 (_EQ_16B,), (_EQ_19,), (_EQ_21,) = (written("printed", TEXTS[each]) for each in ("16b", "19", "21"))
 
 RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, sp.Gt(M, 0, evaluate=False), sp.Eq(h_0, sigma_c0))
-"""What speaks of all quantities that the refutations do."""
+"""Relations that contain all quantities of the refutations."""
 
 _QUARTER = sp.Eq(f_c, sp.Rational(1, 4))
 _AT_REST = (

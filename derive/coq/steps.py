@@ -1,11 +1,11 @@
-"""Steps: judgements as lemmas that know what they rest on, and the record of which are closed.
+"""Steps: judgements as lemmas with the steps that they rest on, and the record of closed ones.
 
 Overview
-    The record says what Coq closed, by the hash of its statement; for users who have no Coq.
+    The record has the outcome of Coq for each statement, by its hash, for users without Coq.
 Key results
     Step             a judgement with its statement, its name and the steps that it rests on
-    steps            of all judgements that can be stated, and why the others cannot
-    record           all of the record
+    steps            the steps of judgements, and the reasons of those that cannot be stated
+    record           the committed record
     proved_by_coq    whether a judgement is closed
 """
 
@@ -43,7 +43,7 @@ class Step:
     parents: tuple[Step, ...]
     relation: sp.Basic
     closed: bool = True
-    """Whether it has a proof, and can be cited."""
+    """Whether the step has a proof and can be cited."""
 
     @property
     def name(self) -> str:
@@ -67,7 +67,7 @@ class Step:
 
     @property
     def assumed(self) -> bool:
-        """Return whether the claim is one of the premises: a hypothesis, nothing to prove."""
+        """Return whether the claim is one of the premises, so that no proof is needed."""
         return any(p.said == self.statement.conclusion for p in self.statement.premises)
 
     @property
@@ -94,7 +94,7 @@ class Step:
         return " ".join((other.name, *(self.labels[p.said] for p in other.statement.premises)))
 
     def now(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
-        """Return the proof term of what another step says of a time."""
+        """Return the proof term of another step's claim at a time."""
         return f"{self.cited(other)} {time} {proof}" if other.timed else self.cited(other)
 
     def stated(self, steps: Iterable[Step]) -> str:
@@ -102,8 +102,10 @@ class Step:
         return "".join(f"given ({self.now(other)}); " for other in steps)
 
     def signs(self, time: str = "t", proof: str = "Ht") -> list[str]:
-        """State what is known of signs at a time: inequalities, and positive names of other
-        things."""
+        """Return the tactics that state the known signs at a time.
+
+        They come from inequalities, and from names that are positive and equal an expression.
+        """
         lines = []
         rests_on = [s for s in (*self.hypotheses, *self.ancestors) if not s.relation.has(sp.Limit)]
         signs = {s.relation.args: s for s in self.hypotheses if isinstance(s.relation, sp.Gt)}
@@ -118,34 +120,34 @@ class Step:
 
     @cached_property
     def frontier(self) -> list[Step]:
-        """Return the nearest steps that this one can use, instead of parents that it cannot."""
-        found: dict[str, Step] = {}
+        """Return the usable parents, and the nearest usable ancestors of the other parents."""
+        nearest: dict[str, Step] = {}
 
         def visit(step: Step) -> None:
             for parent in step.parents:
                 if self.usable(parent):
-                    found.setdefault(parent.name, parent)
+                    nearest.setdefault(parent.name, parent)
                 else:
                     visit(parent)
 
         visit(self)
-        return list(found.values())
+        return list(nearest.values())
 
     @cached_property
     def ancestors(self) -> list[Step]:
         """Return all usable steps that this one rests on, nearest first."""
-        found: dict[str, Step] = {}
+        usable: dict[str, Step] = {}
         row: list[Step] = list(self.parents)
         while row:
             for step in row:
                 if self.usable(step):
-                    found.setdefault(step.name, step)
+                    usable.setdefault(step.name, step)
             row = list(dict.fromkeys(p for step in row for p in step.parents))
-        return list(found.values())
+        return list(usable.values())
 
     @property
     def missing(self) -> list[tuple[Step, list[Premise]]]:
-        """Return parents that rest on more than this step does, with what it lacks."""
+        """Return the parents with premises that this step lacks, and these premises."""
         lacking = (
             (p, [q for q in p.statement.premises if q.said not in self.labels])
             for p in self.parents
@@ -168,30 +170,30 @@ class Step:
 
     @property
     def diverging(self) -> Step:
-        """Return the first of these that is infinite."""
+        """Return the first of these steps with an infinite limit."""
         return next(s for s in self.limits if s.relation.rhs == sp.oo)
 
 
 def steps(
     judgements: Iterable[Judgement], closed: Collection[str]
 ) -> tuple[dict[str, Step], dict[str, str]]:
-    """Return judgements as steps by key, premises first, and why others cannot be stated.
+    """Return judgements as steps by key, premises first, and the reasons of unstatable ones.
 
-    Judgements that say and cite the same are one step; ``closed`` are the keys of those with a
-    proof.
+    Judgements with the same statement and citations are one step; ``closed`` are the keys of
+    steps with a proof.
     """
     known: dict[str, Step] = {}
     refused: dict[str, str] = {}
     for judgement in judgements:
         try:
-            said, name = statement(judgement), key(judgement)
+            stated, name = statement(judgement), key(judgement)
         except UntranslatableError as reason:
             if judgement.parents:
                 refused[str(judgement.relation)] = str(reason)
         else:
             parents = [known[k] for p in judgement.parents if (k := _key(p)) in known]
             proved = name in closed
-            new = Step(name, judgement, said, tuple(parents), claim(judgement), proved)
+            new = Step(name, judgement, stated, tuple(parents), claim(judgement), proved)
             known.setdefault(name, new)
     return known, refused
 
@@ -205,11 +207,11 @@ def _key(judgement: Judgement) -> str | None:
 
 @cache
 def record() -> Record:
-    """Return the committed record: closed, and by which way; or why not."""
+    """Return the committed record: whether a step is closed, by which tactic, or why not."""
     rows: Record = json.loads(RECORD.read_text(encoding="utf-8"))
     return rows
 
 
 def proved_by_coq(judgement: Judgement) -> bool:
-    """Return whether Coq has closed a judgement, as the record has it."""
+    """Return whether Coq has closed a judgement, according to the record."""
     return bool(record().get(_key(judgement) or "", {}).get("closed"))

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..equations import Equation
 
 
-class Step(NamedTuple):
+class StepText(NamedTuple):
     """A step: a sentence, the author's remark on it, and the resulting formula.
 
     If the formula has a number, `latex` is empty, `equation` is its id, and `part` whether it is
@@ -57,7 +57,7 @@ class Derivations:
                     self._named.setdefault(relation, equation.id)
         self._places: dict[sp.Basic, tuple[str, int]] = {}
 
-    def steps(self, identifier: str) -> tuple[Step, ...]:
+    def steps(self, identifier: str) -> tuple[StepText, ...]:
         """Return the steps to an equation that have not been shown yet."""
         new = (
             statement
@@ -68,20 +68,20 @@ class Derivations:
         )
         return self._show(identifier, new)
 
-    def chain(self, identifier: str) -> tuple[Step, ...]:
+    def chain(self, identifier: str) -> tuple[StepText, ...]:
         """Return all steps to an equation, those to other equations on the way included."""
         chain = self._equations[identifier].steps
         return self._show(identifier, (each for each in chain if not is_hypothesis(each)))
 
-    def start(self, identifier: str) -> tuple[Step, ...]:
+    def start(self, identifier: str) -> tuple[StepText, ...]:
         """Return the hypotheses on which an equation rests, as steps without a sentence."""
         chain = self._equations[identifier].steps
         given = (each for each in chain if is_hypothesis(each))
         return tuple(dict.fromkeys(self._result(each, identifier) for each in given))
 
-    def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[Step, ...]:
+    def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[StepText, ...]:
         """Return the steps of statements, and keep the place of each for later references."""
-        steps: list[Step] = []
+        steps: list[StepText] = []
         for statement in statements:
             step = self._step(statement, identifier)
             if step not in steps:
@@ -105,19 +105,19 @@ class Derivations:
         for parent in statement.parents:
             yield from self._nearest(parent, of)
 
-    def _step(self, statement: Judgement, of: str) -> Step:
+    def _step(self, statement: Judgement, of: str) -> StepText:
         parents = [self._name(parent, of) for parent in statement.parents]
         parts = _FIXED.split(statement.rule.sentence(*parents, write=_written))
         sentence = "".join(part if part[:1] in ("$", "[") else typed(part) for part in parts)
         return self._result(statement, of)._replace(sentence=sentence, remark=statement.remark)
 
-    def _result(self, statement: Judgement, of: str) -> Step:
+    def _result(self, statement: Judgement, of: str) -> StepText:
         """Return the result of a step, an equation or a formula, without its sentence."""
         relation = statement.relation
         current = of if relation in _results(self._equations[of]) else ""
         if name := self._named.get(relation, current):
-            return Step("", "", "", name, len(_results(self._equations[name])) > 1)
-        return Step("", "", latex(presentable(relation)))
+            return StepText("", "", "", name, len(_results(self._equations[name])) > 1)
+        return StepText("", "", latex(presentable(relation)))
 
     def _name(self, parent: Judgement, of: str) -> str:
         """Return the reference of a step to another relation."""

@@ -34,7 +34,7 @@ _SETTINGS = {
 }
 
 
-class _Printer(LatexPrinter):
+class _NotePrinter(LatexPrinter):
     """SymPy's LaTeX printer with the names and conventions of the field.
 
     As ISO 80000-2 has it, the d of a differential and the base e stand upright.  Fractions inside
@@ -186,7 +186,7 @@ def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -
     '\\frac{\\mathrm{d}u_c}{\\mathrm{d}t} = 2 p_{\\max}'
     """
     if isinstance(expr, sp.Basic):
-        return str(_Printer().doprint(expr))
+        return str(_NotePrinter().doprint(expr))
     if len(expr) == 1 and not where:
         return latex(expr[0])
     lines = [_RELATION.sub(r" &\1 ", latex(part), count=1) for part in (*expr, *where)]
@@ -202,4 +202,4 @@ def inline(relation: sp.Basic) -> str:
     >>> inline(symbol("f_c") < sp.Rational(1, 3))
     'f_c < 1 / 3'
     """
-    return str(_Printer(small=True).doprint(relation))
+    return str(_NotePrinter(small=True).doprint(relation))
