@@ -1,1 +1,1 @@
-"""Results that the note does not have, a file an idea."""
+"""Results beyond the note, one file for each idea."""

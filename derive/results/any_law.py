@@ -1,6 +1,6 @@
-"""Steady wear: the results of ``steady_state``, for any contact law where they hold for any.
+"""Steady wear: the results of ``steady_state``, for any contact law where possible.
 
-``growth`` and ``approach`` are those of the note's law: their bounds are in terms of it.
+``growth`` and ``approach`` are for the note's law, in terms of which their bounds are.
 """
 
 from __future__ import annotations

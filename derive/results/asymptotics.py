@@ -1,11 +1,11 @@
-"""Asymptotics as code: the long-time formulas in the form in which numbers are put in.
+"""Asymptotics as code: the long-time formulas in a form for numerical evaluation.
 
 Overview
     One and two worn solids, rough or smooth pins, rigid or compliant supports and every contact
     law share a few formulas: with q the growth of roughness and g that of the closure per wear,
-    h/sigma tends to g/q, and with it pressure, wear per cycle and the coefficient of ln N are
-    known.  The formulas here are taken from the proved statements; a test asserts that for one
-    solid they become those of the note.
+    h/sigma tends to g/q, which determines pressure, wear per cycle and the coefficient of ln N.
+    The formulas here are taken from the proved statements; a test asserts that for one solid
+    they reduce to those of the note.
 Key results
     formulas    the functions to generate
     module      the source of wear/generated/asymptotics.py
@@ -117,7 +117,7 @@ def _steady() -> tuple[Formula, ...]:
             "log_coefficient",
             (steepness,),
             steepness * OFFSET,
-            "coefficient of ln N, rigid support; at U_a for its mean: how the rate there deviates",
+            "coefficient of ln N, rigid support; with U_a for its mean, that of the local rate",
         ),
         Formula(
             "log_coefficient_compliant",
@@ -131,8 +131,8 @@ def _steady() -> tuple[Formula, ...]:
 def _cutoff() -> tuple[Formula, ...]:
     """Return the formulas of the cutoff.
 
-    Those of two solids count from a wear ``u`` at which there is a gap at the peak of the load:
-    they are the derived ones with the gap and the roughness of that wear.
+    Those of two solids start from a wear ``u`` with a gap at the peak of the load: they are the
+    derived formulas with the gap and the roughness at that wear.
     """
     gap, cross, squared = sp.symbols("gap cross squared", real=True)
     half, product, root = sp.symbols("half product root", real=True)
@@ -148,8 +148,8 @@ def _cutoff() -> tuple[Formula, ...]:
     equal(worn[2][1].subs(*worn[1]), (sigma_stop**2).subs(u_stop, u))
     fresh = {h_0: U_max + gap, p_1: cross, sigma_a0: 0, sigma_c0: sp.sqrt(squared)}
     derived_depth = u + arrest_depth_two_solids.claim.rhs
-    for written, derived in ((inside, whole), (depth, derived_depth)):
-        equal(written.subs(parts[:2:-1]), derived.subs(fresh))
+    for form, derived in ((inside, whole), (depth, derived_depth)):
+        equal(form.subs(parts[:2:-1]), derived.subs(fresh))
     discriminant = sp.Symbol("discriminant", real=True)
     relation = sp.And(discriminant >= 0, discriminant > half * sp.Abs(half))
     return (

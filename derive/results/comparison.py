@@ -1,12 +1,12 @@
-"""Comparison: what rigorous bounds of the wear rest on.
+"""Comparison: the foundations of rigorous bounds of the wear.
 
 Overview
     A larger load never gives less wear (``monotonicity``), so the least and the largest load
-    bound the wear from both sides.  A compliant support acts like the load
-    U_a - p/k, which lies between U_a - p_max/k and U_a.  Means over a cycle are taken at
-    equidistant phases; the error is bounded by the size of the rate at complex loads.
+    bound the wear from both sides.  A compliant support reduces the load to U_a - p/k, which
+    lies between U_a - p_max/k and U_a.  Means over a cycle are taken at equidistant phases;
+    the error is bounded by the size of the rate at complex loads.
 Key results
-    compliant_load   the load that a compliant support leaves
+    compliant_load   the effective load on a compliant support
     strip            |1 + e^(a + i b)| > 1 while cos b > 0
 """
 
@@ -27,7 +27,7 @@ STRIP = sp.pi / 8
 """Largest |Im h/sigma| at which |phi| <= 1: there |Im(4 h/sigma)| is a quarter turn."""
 
 compliant_load = Arithmetic(*stated("compliant-load"))(assume(UNSATURATED), name="load and support")
-"""The load that a compliant support leaves lies between two rigid ones."""
+"""The effective load on a compliant support lies between two loads on a rigid one."""
 
 strip = Arithmetic(sp.Gt(1 + 2 * sp.exp(_a) * _cosine + sp.exp(2 * _a), 1))(
     assume(SAME_SIDE),

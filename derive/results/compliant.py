@@ -3,8 +3,8 @@
 Overview
     The deflection p/k of the support is bounded by p_max/k, so it shifts the closure by a
     bounded amount and changes neither the limit of h/sigma nor steady wear: (18), (21) and (22)
-    hold for every k.  What depends on k is the way to the limit, and with it the wear itself:
-    the coefficient A of ln t is lowered by the deflection p_inf/k of the steady state.
+    hold for every k.  The approach to the limit depends on k, and so does the wear itself:
+    the deflection p_inf/k of the steady state lowers the coefficient A of ln t.
 Key results
     CompliantSteadyState    the limits of SteadyState, for a finite k
     drift_coefficient       A, any contact law; the rigid support is k -> oo
@@ -63,7 +63,7 @@ class CompliantSteadyState(SteadyState):
 
     @cached_property
     def deflected(self) -> Judgement:
-        """The support carries a pressure below p_max, where the law does not show it by itself."""
+        """The deflection lies between 0 and p_max/k: by the law, or the premise p < p_max."""
         claim = sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
         deflection = self.model.deflection
         try:
@@ -73,12 +73,12 @@ class CompliantSteadyState(SteadyState):
 
     @property
     def facts(self) -> tuple[Judgement, ...]:
-        """What bounds of the closure ratio rest on."""
+        """The premises of bounds of the closure ratio."""
         return *super().facts, self.deflected
 
     @cached_property
     def pressure(self) -> Judgement:
-        """The pressure tends to p_max phi(1/f_c), whatever the stiffness."""
+        """The pressure tends to p_max phi(1/f_c) for every stiffness."""
         claim = sp.Eq(forever(p), p_max * self.law.ratio(1 / f_c))
         return Passes(claim)(self.pressure_at_wear, self.ratio, name="steady pressure")
 
@@ -89,9 +89,9 @@ class CompliantSteadyState(SteadyState):
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
         deviation = AtInfinity(claim, 1 / u_c)(wear, *self.facts)
         near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected)
-        settled = Passes(sp.Eq(forever(U_c), p_inf / k))(self.model.deflection, self.steady)
+        limit = Passes(sp.Eq(forever(U_c), p_inf / k))(self.model.deflection, self.steady)
         at_rest = near.claim.expr.subs(U_c, p_inf / k)
-        return drift(Passes(sp.Eq(forever(at_rest), 0))(near, settled))
+        return drift(Passes(sp.Eq(forever(at_rest), 0))(near, limit))
 
     @cached_property
     def steady(self) -> Judgement:

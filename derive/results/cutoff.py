@@ -1,29 +1,29 @@
-"""Cutoff: contact only for h <= 3 sigma, as the text under (4) says. One worn solid.
+"""Cutoff: contact only for h <= 3 sigma, as in the text below (4). One worn solid.
 
 Overview
     With the cutoff, contact is a condition on wear and load: the margin 3 sigma - h must not be
-    negative.  For one worn solid it is linear in the wear.  Where f_c < 1/3 it falls: wear
-    arrests at a depth at which even the peak of the load does not reach contact.  For
+    negative.  For one worn solid it is linear in the wear.  For f_c < 1/3 it decreases: wear
+    stops at a depth at which even the peak of the load does not make contact.  For
     f_c = 1/3 it does not depend on the wear; for f_c > 1/3 contact becomes permanent.
 Key results
     contact_condition   contact if and only if (1 - 3 f_c) u_c <= 3 sigma_c0 - h_0 + U_a
     arrest_depth        f_c < 1/3: where the margin vanishes at the peak of the load
-    rate_in_contact     never below that at h = 3 sigma
-    margin_rate         how the margin changes in time
+    rate_in_contact     its lower bound, the rate at h = 3 sigma
+    margin_rate         the time derivative of the margin
     sliding_rate        the rate that keeps h = 3 sigma while the load rises
     one_third           f_c = 1/3: the steady wear per cycle, a fraction d of the full one
     permanent_contact   f_c > 1/3: the wear beyond which contact is permanent
-    edge_of_contact     compliant support: why p = min(p_smooth, max(0, k margin))
+    edge_of_contact     compliant support: the basis of p = min(p_smooth, max(0, k margin))
 Remarks
     The pressure jumps at h = 3 sigma, by phi(3) p_max = 1.8 % of p_max for tanh.  On a rigid
     support the jump makes wear arrest in finite time at a smooth peak of the load.  Let r be
     the least ``rate_in_contact`` and e so small that dU_a/dt <= (1 - 3 f_c) r wherever
     U_a >= max U_a - (1 - 3 f_c) e, which is a fraction d of the period.  As long as wear is
-    further than e from the arrest depth, every cycle wears by r d T at least (``no_contact``).
-    Then the margin cannot grow before the peak (``margin_rate``): wear slides along h = 3 sigma
-    up to the peak, where it arrests.  So it does by cycle 2 + u_stop/(r d T).  On a compliant
-    support the pressure falls to zero with the margin, and wear approaches the same depth
-    without reaching it.
+    further than e from the arrest depth, its increment per cycle is at least r d T
+    (``no_contact``).  Then the margin cannot grow before the peak (``margin_rate``): wear slides
+    along h = 3 sigma up to the peak, where it stops, no later than in cycle 2 + u_stop/(r d T).
+    On a compliant support the pressure falls to zero with the margin, and wear approaches the
+    same depth without reaching it.
 """
 
 from __future__ import annotations
@@ -67,13 +67,13 @@ margin = Identity(*stated("margin"))(name="margin and wear")
 """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
 
 margin_rate = Identity(*stated("margin-rate"))(assume(DIFFERENTIABLE), name="rate of the margin")
-"""How the margin changes: wear lowers it, a rising load raises it."""
+"""The time derivative of the margin: wear lowers it, a rising load raises it."""
 
 _at_peak = define(sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0))
 arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)))(
     Solve(u_stop)(_at_peak, outgrown), outgrown, name="arrest depth"
 )
-"""The wear at which the peak of the load just reaches contact."""
+"""The wear at which the peak of the load just makes contact."""
 
 no_contact = Insert(*stated("no-contact"))(arrest_depth, name="margin and arrest depth")
 """Beyond the arrest depth the margin is negative at every load."""
@@ -103,7 +103,7 @@ rate_in_contact = Consequence(sp.Le(_bound.claim.lesser, rate("u_c")))(
     substitute(model.wear_laws[2], substitute(model.pressure_in_contact, *geometry)),
     name="rate in contact",
 )
-"""The rate in contact is at least that at the edge of contact."""
+"""The rate in contact is at least the rate at the edge of contact."""
 
 _kept = assume(Hypothesis(sp.Eq(room, 0)))
 sliding_rate = Insert(*stated("sliding-rate"))(
@@ -131,5 +131,5 @@ edge_of_contact = Arithmetic(*stated("edge-of-contact"))(name="edge of contact, 
 """Compliant support: k margin exceeds p exactly where the smooth law is in contact.
 
 ``h - p/k`` is the undeflected closure.  Where the smooth solution has h > 3 sigma, the bearing
-rests at h = 3 sigma, with the pressure k margin that its springs give.
+stays at h = 3 sigma, under the pressure k margin of its springs.
 """

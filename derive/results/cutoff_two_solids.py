@@ -2,9 +2,10 @@
 
 Overview
     The margin 3 sigma - h is convex in the wear: its second derivative is
-    3 (P q^2 - p_1^2)/sigma^3, which the product of two sums of squares keeps from being negative.
-    A convex margin that starts positive is lost at its first zero, if it has one, and wear
-    cannot pass that depth.  At the zero 9 sigma^2 = h^2, a quadratic equation.
+    3 (P q^2 - p_1^2)/sigma^3 with P = sigma_a0^2 + sigma_c0^2, and p_1^2 <= P q^2 by the
+    Cauchy-Schwarz inequality.  Contact is lost at the first zero of a convex margin that starts
+    positive, if it has one, and wear cannot pass that depth.  At the zero 9 sigma^2 = h^2, a
+    quadratic equation.
 Key results
     margin_curvature          the second derivative of the margin
     arrest_depth_two_solids   its first zero, in the form without cancellation

@@ -1,4 +1,4 @@
-"""Dimensionless groups: on how few numbers the wear really depends.
+"""Dimensionless groups: the independent parameters of the wear.
 
 Overview
     Wear, closure and load are measured in the initial roughness of the bearing, time in
@@ -60,7 +60,7 @@ TWO = (*ONE, K_a, H_a, f_a, sigma_a0)
 
 
 def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
-    """Return how many data there are, and the rank of their dimension matrix.
+    """Return the number of data and the rank of their dimension matrix.
 
     >>> count(ONE)
     (9, 3)
@@ -72,7 +72,7 @@ def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
 def _scaled(
     identifier: str, rough: Judgement, parent: Judgement, groups: tuple[sp.Symbol, ...]
 ) -> Judgement:
-    """Return a scaled equation, in which no datum is left but the groups."""
+    """Return a scaled equation, whose only data are the groups."""
     fields = {field.func.__name__: field.func for field in (v, a, q)}
     names = {group.name: group for group in (mu, eta, nu, zeta, lamda)}
     claim, *_ = stated(identifier, fields | names)

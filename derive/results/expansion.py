@@ -10,7 +10,7 @@ Key results
     drift(n)         c_1 to c_4
     oscillation(n)   w_1, w_2
     expansion        tau as a function of m, to order 1/m^3
-    log_drift        the drift as a limit, proved on the way to (19)
+    log_drift        the drift as a limit, proved for the correction of (19)
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ growth = defined(rho, f_c * u_cum, _roughens)
 
 
 def order(n: int) -> Judgement:
-    """Return what the terms with 1/m^n say of c_n and w_n."""
+    """Return the equation of c_n and w_n from the terms with 1/m^n."""
     pressure = steady_state().pressure_at_wear
     names = (
         defined(name, term_of(kind, k, pressure.claim.rhs), _roughens)

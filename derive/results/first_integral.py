@@ -1,4 +1,4 @@
-"""First integral: what pressure, roughness and load keep constant while the bearing wears.
+"""First integral: a function of pressure, roughness and load that wear leaves constant.
 
 Overview
     Wear opens the gap and roughens the bearing in proportion, so closure and roughness stay on
@@ -31,7 +31,7 @@ p, p_max, f_c = symbols("p p_max f_c")
 
 
 def _line(law: ContactLaw) -> Judgement:
-    """Return that closure and roughness lie on a line that the load shifts."""
+    """Return the line of closure and roughness, which the load shifts."""
     model = bearing_only(law)
     parents = (model.closure, model.roughness_at_wear, model.wear_of_pin)
     return Insert(*stated("closure-line"))(*parents, assume(SLOPED), name="line of closure")
@@ -49,9 +49,9 @@ _closure = Solve(h)(_line(TANH))
 first_integral_compliant = Insert(*stated("first-integral-compliant"))(
     log_odds, _closure, bearing_only().deflection, name="first integral, compliant support"
 )
-"""What stays constant, with a support of stiffness k."""
+"""The first integral on a support of stiffness k."""
 
 first_integral = Insert(*stated("first-integral"))(
     log_odds, _closure, assume(RIGID), name="first integral"
 )
-"""What stays constant, on a rigid support."""
+"""The first integral on a rigid support."""

@@ -1,9 +1,9 @@
-"""Monotonicity: in which direction each datum moves the wear, at every time.
+"""Monotonicity: the sign of the effect of each datum on the wear, at every time.
 
 Overview
     For two scalar equations du/dt = Q_1(u, t) and du/dt = Q_2(u, t) with Q_1 >= Q_2 and equal
     starts, u_1 >= u_2 for all time (comparison theorem; Q is locally Lipschitz).  So wear
-    increases with a datum for as long as the rate at given wear and load does: with K_c, V,
+    increases with a datum as long as the rate at given wear and load does: with K_c, V,
     p_max and the load U_a always, with sigma_c0 and f_c while the mean surfaces do not
     interpenetrate (h > 0); it decreases with H_c and h_0.
 Key results
@@ -41,7 +41,7 @@ WHILE_APART = (sigma_c0, f_c)
 def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgement:
     """Return the sign of the effect of a datum on the rate at given wear and load.
 
-    ``apart``: whether h > 0 is supposed; by default where it is needed.
+    ``apart``: whether to suppose h > 0; by default only for data that need it.
     """
     problem = bearing_only(law)
     facts = [problem.roughness_of_bearing, assume(ROUGH_BEARING)]

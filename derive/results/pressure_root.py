@@ -1,21 +1,21 @@
-"""The pressure on a compliant support: one root, always, and its distance from a rigid one.
+"""The pressure on a compliant support: its unique root, and the distance from a rigid one.
 
 Overview
-    With a support of stiffness k, Eq. (9) holds the wear rate on both sides.  At given wear and
+    With a support of stiffness k, Eq. (9) has the wear rate on both sides.  At given wear and
     load it is an equation for the pressure, p = p_max phi((g + p/k)/sigma), where g is the
     closure on an undeflected support.  Left minus right increases with p, is negative at 0 and
-    positive at p_max: there is exactly one root, and it lies in between.  Stiffening the
-    support moves it towards the rigid pressure, from below, by at most p_max^2/(k sigma).
-    For the share y = p/p_max it is y = phi(a + s y), with the closure a over roughness on an
-    undeflected support and its softness s.  The distance of the root from where a step of Newton's
-    iteration ends is that of the law from its tangent, which has one sign on either side of the
-    law's inflection: the iteration does not cross the root.
+    positive at p_max: there is exactly one root, and it lies in between.  For a stiff support it
+    tends to the rigid pressure, from below, with a distance of at most p_max^2/(k sigma).
+    For the share y = p/p_max it is y = phi(a + s y), with the ratio a of closure and roughness
+    on an undeflected support and its softness s.  The error of a Newton step is proportional to
+    the distance of the law from its tangent, which has one sign on either side of the law's
+    inflection: the iteration does not cross the root.
 Key results
     equation            the equation for p
-    pressure_root       the three inequalities by which its root exists and is one
+    pressure_root       the three inequalities for existence and uniqueness of its root
     rigid_limit_error   0 <= p_rigid - p <= p_max p/(k sigma), hence (10) as a limit
-    pressure_iteration  a step of Newton's iteration, and where it ends; the note's law is
-                        convex beyond h = 2 sigma, concave below
+    pressure_iteration  a Newton step and its error; the note's law is convex beyond
+                        h = 2 sigma, concave below
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ pressure_iteration = (
     Arithmetic(sp.Ge(_bend.subs(r, TANH.inflection + x), 0))(name="convex"),
     Arithmetic(sp.Le(_bend.subs(r, TANH.inflection - x), 0))(name="concave"),
 )
-"""A step from x without cancellation; how far its end is from the root y; the curvature of phi.
+"""A step from x without cancellation; its distance from the root y; the curvature of phi.
 
 At the root the second term of the distance vanishes.
 """

@@ -1,10 +1,10 @@
-"""The map of regimes: what becomes of the wear of one solid, with the formula of each.
+"""The map of regimes: the long-time behaviour of the wear of one solid, with its formulas.
 
 Overview
-    Without cutoff the roughness growth f_c decides, and for f_c < 0 the gap that is left where
-    the roughness would vanish; with the cutoff 1/3 takes the part of 0.  The conditions are
-    relations between data, so that the map can be asked with numbers; it covers all of them,
-    each once.  The derivations of its rows rest on these conditions.
+    Without cutoff the roughness growth f_c decides, and for f_c < 0 the gap at the wear at which
+    the roughness would vanish; with the cutoff the threshold of f_c is 1/3 instead of 0.  The
+    conditions are relations between data, so that the map can be evaluated for numbers; exactly
+    one row holds for each set of data.  The derivations of the rows rest on these conditions.
 Key results
     REGIMES    the rows of the map
     regime     the row that holds for given data
@@ -25,17 +25,17 @@ f_c, h_0, sigma_c0, U_max = symbols("f_c h_0 sigma_c0 U_max")
 OUTGROWN, THIRD, ROUGHER = (
     Hypothesis(relation(f_c, sp.Rational(1, 3))) for relation in (sp.Lt, sp.Eq, sp.Gt)
 )
-"""The gap outgrows the roughness, both grow alike, or the roughness outgrows the gap."""
+"""The gap grows faster than the cutoff 3 sigma, equally fast, or more slowly."""
 _gap = h_0 - sigma_c0 / f_c - U_max
 OPEN, CLOSED = Hypothesis(sp.Gt(_gap, 0)), Hypothesis(sp.Le(_gap, 0))
-"""Whether a gap is left where the roughness would vanish."""
+"""Whether there is a gap at the wear at which the roughness would vanish."""
 _room = 3 * sigma_c0 - h_0 + U_max
 TOUCHING, APART = Hypothesis(sp.Gt(_room, 0)), Hypothesis(sp.Le(_room, 0))
 """Whether the peak of the load makes contact at the start."""
 
 
 class Regime(NamedTuple):
-    """A row of the map: its name, where it holds, and the equations that describe it."""
+    """A row of the map: its name, its conditions, and the ids of its equations."""
 
     name: str
     cutoff: bool
@@ -65,9 +65,9 @@ def regime(values: Mapping[str, float], cutoff: bool) -> Regime:
     ('steady', 'arrest')
     """
     data = {symbol(name): value for name, value in values.items()}
-    (found,) = (
+    (match,) = (
         row
         for row in REGIMES
         if row.cutoff == cutoff and all(c.relation.subs(data) for c in row.conditions)
     )
-    return found
+    return match

@@ -1,7 +1,7 @@
-"""Regimes: what becomes of the wear of one solid for f_c = 0 and f_c < 0, without cutoff.
+"""Regimes: the wear of one solid in the long run for f_c = 0 and f_c < 0, without cutoff.
 
 Overview
-    f_c > 0 is the steady regime.  For f_c = 0 the argument of tanh falls with the wear without
+    f_c > 0 is the steady regime.  For f_c = 0 the argument of tanh decreases with the wear without
     bound, the rate is close to its exponential tail, and wear grows like the logarithm of the
     cycles.  For f_c < 0 the roughness would vanish at the wear sigma_c0/|f_c|.  There the gap
     at the peak of the load is h* = h_0 + sigma_c0/|f_c| - max U_a.  If it is open, wear
@@ -9,7 +9,7 @@ Overview
 Key results
     tail               the rate is below its exponential tail, by a factor that tends to 1
     logarithmic_wear   f_c = 0: the wear of the tail, for any periodic load
-    saturating_wear    f_c < 0, h* > 0: the cycles at which the roughness is s, static load
+    saturating_wear    f_c < 0, h* > 0: the number of cycles to a roughness, static load
     closed_gap         f_c < 0, h* <= 0: the rate while the peak of the load is in contact
 """
 
@@ -37,13 +37,13 @@ sigma_c0, sigma_c, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 sigma_c f_c p_max
 (sigma_s,) = symbols("sigma_s")
 
 OVERLAP = Hypothesis(sp.Ge(U_a, h_0 - sigma_c0 / f_c))
-"""No gap is left where the roughness would vanish."""
+"""There is no gap at the wear at which the roughness would vanish."""
 
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
 
 grown, rough = bearing_only().roughness_of_bearing, assume(ROUGH_BEARING)
-"""The roughness of the bearing, which has not vanished."""
+"""The roughness of the bearing, and the premise that it does not vanish."""
 
 largest_wear = defined(M, K_c * V * T * p_max / (3 * H_c))
 smoothing = assume(SMOOTHING)
@@ -54,7 +54,7 @@ tail = Consequence(sp.Lt(rate("u_c"), _tail))(
 )
 """The rate is below its exponential tail."""
 
-# f_c = 0: the tail adds up to a logarithm
+# f_c = 0: the integral of the tail is a logarithm
 _kept, _sine = assume(KEPT), assume(SINE)
 kept = discharge(substitute(law, _kept), ROUGH_BEARING, grown, _kept)
 """The rate of a bearing that keeps its roughness."""
@@ -96,7 +96,7 @@ _by_parts = Integrated(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 
 saturating_wear = LeadingTerm(sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One)))(
     _by_parts(_cycles, rough, smoothing), rough, smoothing, name="saturating wear"
 )
-"""The number of cycles at which the roughness has fallen to sigma_c."""
+"""The number of cycles to the roughness sigma_c."""
 
 _ratio = Arithmetic(sp.Le(closure / roughness, 1 / f_c))(assume(OVERLAP), smoothing, grown, rough)
 _bound = Monotone(wear_rate(TANH))(_ratio)

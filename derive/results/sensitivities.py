@@ -1,10 +1,10 @@
-"""Sensitivities: how the asymptotic wear per cycle and pressure depend on the data.
+"""Sensitivities of the asymptotic wear per cycle and pressure to the data.
 
 Overview
     (21) is linear in K_c, V, T and p_max, inversely proportional to H_c, and depends on f_c
     through tanh(4 - 2/f_c) alone.  An elasticity is the relative change of the result per
     relative change of a datum; that of f_c is (4/f_c) (1 - y), with y = p_inf/p_max, and is
-    large where little pressure is left.  Inverting (21) identifies f_c or K_c from measured
+    large at a low asymptotic pressure.  Inverting (21) identifies f_c or K_c from measured
     wear; the first integral gives f_c from one measured rate, at any time.
 Key results
     sensitivity(...)    d u_cum/da or d p_inf/da
@@ -38,7 +38,7 @@ sigma_c0, M, k = symbols("sigma_c0 M k")
 
 
 share = p_inf / p_max
-"""The asymptotic pressure as a part of the largest."""
+"""The asymptotic pressure over the largest."""
 
 POWERS = {K_c: 1, V: 1, T: 1, p_max: 1, H_c: -1}
 """Data of which u_cum is a power, and the power: its elasticity."""
@@ -50,7 +50,7 @@ WITHOUT_EFFECT = (sigma_c0, h_0, U, k)
 def sensitivity(
     result: Judgement, parameter: sp.Symbol, value: sp.Expr, scale: sp.Expr = sp.S.One
 ) -> Judgement:
-    """Return the judgement that ``value`` is the derivative of a result, times a scale."""
+    """Return the judgement that ``value`` is a scale times the derivative of a result."""
     slope = sp.Derivative(result.claim.lhs, parameter, evaluate=False)
     claim = sp.Eq(scale * slope, value, evaluate=False)
     names = [pressure] if value.has(p_inf) else []

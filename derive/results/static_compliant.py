@@ -3,8 +3,8 @@
 Overview
     On a compliant support the pressure is an implicit function of the wear, but the wear is an
     explicit function of the pressure: the first integral, solved for the roughness.  Time then
-    follows by integrating du/(du/dt) along the pressure, by parts.  For f_c != 0 one integral
-    remains, of a smooth function; for f_c = 0 everything is elementary.
+    follows by integrating du/(du/dt) over the pressure, by parts.  For f_c != 0 one integral
+    remains, of a smooth function; for f_c = 0 the solution is elementary.
 Key results
     wear, time                         u_c(p) and t(p), f_c != 0
     static_solution_compliant_smooth   the same for f_c = 0
@@ -72,9 +72,9 @@ _continuous = follows(
 
 
 def _time(wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement) -> Judgement:
-    """Return the time, 2 C dt = (p_max/p) du, integrated by means of a primitive.
+    """Return the time since the first pressure p(0), the integral of 2 C dt = (p_max/p) du.
 
-    It is counted from the first pressure p(0).
+    The integral is partly done by a primitive; ``rest`` is the integrand that remains.
     """
     facts = assume(UNSATURATED), _continuous, *facts
     logarithm = sp.Function("L", real=True)(p_s)

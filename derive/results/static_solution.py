@@ -3,9 +3,8 @@
 Overview
     For constant U_a the rate depends on the wear alone, so time is the integral of 1/rate:
     half the wear over C, for the saturated pressure, plus an exponential integral for the
-    excess of the gap.  Where f_c = 0 the integral is elementary and inverts by Lambert's W.  On
-    a compliant support everything is explicit in the pressure but for one integral, which has
-    no closed form; for f_c = 0 it has one.
+    excess of the gap.  For f_c = 0 the integral is elementary, with an inverse by Lambert's W.
+    A compliant support is in ``static_compliant``.
 Key results
     static_solution          t(u_c), f_c != 0, of either sign while sigma > 0
     static_solution_smooth   t(u_c), f_c = 0
@@ -106,6 +105,6 @@ static_solution_scaled = (
 )
 """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow.
 
-exp(-2 x_inf) and Ei(z) overflow where their product is harmless.  E = ln(p_max/p - 1) and z are
-moderate or harmless, and the last factor is a bounded function of z, about -1/z for large z.
+exp(-2 x_inf) and Ei(z) overflow where their product is finite.  E = ln(p_max/p - 1) and z do not
+overflow, and the last factor is a bounded function of z, about -1/z for large z.
 """

@@ -46,11 +46,11 @@ sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 roughness = sigma_c0 + f_c * u_c
 closure = h_0 + u_c - U_a
 excess = sigma_c0 / f_c - h_0 + U_a
-"""Distance of the load from the one at which the rate would be steady at once."""
+"""Difference between the load and the one with a constant rate from the start."""
 
 
 def worn(model: NoteModel) -> Judgement:
-    """Return that the wear of the bearing never falls below zero: its rate is positive."""
+    """Return that the wear of the bearing is never negative, since its rate is not."""
     positive = Arithmetic(sp.Ge(rate("u_c"), 0))(model.wear_laws[2])
     return grows(positive, model.start[1], name="wear increases")
 
@@ -80,7 +80,7 @@ class SteadyState:
         return assume(ROUGHENING)
 
     def rough(self, judgement: Judgement) -> Judgement:
-        """Return a judgement that need not suppose that the bearing is rough: it starts so."""
+        """Return a judgement without the hypothesis that the bearing is rough, which follows."""
         grown = self.model.roughness_of_bearing
         return discharge(judgement, ROUGH_BEARING, grown, self.worn, self.roughening)
 
@@ -102,7 +102,7 @@ class SteadyState:
 
     @property
     def facts(self) -> tuple[Judgement, ...]:
-        """What bounds of the closure ratio rest on."""
+        """The premises of bounds of the closure ratio."""
         return self.roughening, assume(BOUNDED_LOAD), self.worn
 
     @cached_property
@@ -144,7 +144,7 @@ class SteadyState:
 
     @cached_property
     def ratio(self) -> Judgement:
-        """h/sigma tends to 1/f_c, whatever the law."""
+        """h/sigma tends to 1/f_c for every law."""
         claim = sp.Eq(forever(self.closure / roughness), 1 / f_c)
         return Passes(claim)(self.deviation, self.vanishing, name="limit of h/sigma")
 
@@ -189,7 +189,7 @@ def wear_rate(law: ContactLaw) -> sp.Lambda:
 
 @cache
 def steady_state(law: ContactLaw = TANH) -> SteadyState:
-    """Return the limit for a law, derived once for all that rests on it."""
+    """Return the long-time limit for a law, derived once."""
     return SteadyState(law)
 
 

@@ -7,7 +7,7 @@ Overview
     unbounded and h/sigma tends to g/q: x_inf = 4 - 2 g/q, for every sign of f_a and f_c.
 Key results
     TwoSolids.definitions  q, g and p_1
-    TwoSolids.separation   what keeps sigma away from zero
+    TwoSolids.separation   the identity by which sigma does not vanish
     TwoSolids.ratio        h/sigma -> g/q
     TwoSolids.rate         the steady wear rate
     TwoSolids.drift        the coefficient of ln t
@@ -72,12 +72,12 @@ class TwoSolids:
         roughening, _, cross = self.definitions
         claim = sp.Eq(q**2 * squared, (q**2 * u_c + p_1) ** 2 + apart**2)
         separated = Insert(claim)(roughening, cross)
-        name = "what keeps the roughness from vanishing"
+        name = "lower bound of the roughness"
         return substitute(separated, roughening, cross, name=name)
 
     @cached_property
     def rough(self) -> Judgement:
-        """The roughness does not vanish, whatever the wear."""
+        """The roughness does not vanish at any wear."""
         roughening, _, cross = self.definitions
         return Arithmetic(sp.Gt(squared, 0))(self.separation, roughening, cross)
 
@@ -111,7 +111,7 @@ class TwoSolids:
 
     @cached_property
     def first_order(self) -> Judgement:
-        """How h/sigma approaches its limit."""
+        """The first-order deviation of h/sigma from its limit."""
         offset = (h_0 - U_a) / q - g * p_1 / q**3
         claim = sp.Eq(forever(u_c * (closure_ratio - g / q) - offset), 0)
         return AtInfinity(claim, 1 / u_c)(self.unbounded, self.rough, name="approach of h/sigma")

@@ -1,9 +1,9 @@
-"""Validity: what f_c > 1/8 means.
+"""Validity: the meaning of f_c > 1/8.
 
 Overview
     The note calls (22) valid where tanh(4 - 2/f_c) > -1, "that is" f_c > 1/8.  But tanh > -1
-    holds everywhere.  The asymptotic pressure grows with f_c > 0 from 0 on, so that a demand
-    p_inf/p_max > epsilon is a demand f_c > 4/(8 + ln(1/epsilon - 1)).  f_c > 1/8 is the case
+    holds everywhere.  The asymptotic pressure increases with f_c, from 0 at f_c = 0, so that
+    p_inf/p_max > epsilon is equivalent to f_c > 4/(8 + ln(1/epsilon - 1)).  f_c > 1/8 is the case
     epsilon = 1/(1 + e^24) = 3.8e-11: not a limit of validity but one of resolution, that of a
     calculation with ten digits.
 Key results
@@ -12,7 +12,7 @@ Key results
     share_slope d/df_c of it is positive
     threshold   p_inf/p_max > epsilon if and only if f_c > 4/(8 + ln(1/epsilon - 1))
     one_eighth  the case f_c > 1/8
-    RESOLUTIONS the epsilon of some arithmetics
+    RESOLUTIONS epsilon of several number formats
 """
 
 from __future__ import annotations
@@ -67,17 +67,17 @@ _rare = Arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)))(assume(RESOLVED))
 threshold = Threshold(sp.Equivalent(sp.Gt(_value, epsilon), sp.Gt(f_c, bound)), f_c)(
     assume(ROUGHENING), Monotone(sp.Lambda(_x, sp.log(_x)))(_rare), name="threshold"
 )
-"""A demand on the pressure is a demand on f_c."""
+"""A lower bound of the pressure is equivalent to one of f_c."""
 
 _resolution = assume(TEN_DIGITS)
 one_eighth = forget(
     discharge(substitute(threshold, _resolution), RESOLVED, _resolution), TEN_DIGITS
 )
-"""f_c > 1/8 is a demand on the size of the asymptotic pressure."""
+"""f_c > 1/8 is equivalent to a lower bound of the asymptotic pressure."""
 
 
 def threshold_at(resolution: sp.Expr) -> sp.Expr:
-    """Return the least f_c whose asymptotic pressure an arithmetic can tell from zero.
+    """Return the least f_c whose asymptotic pressure exceeds the resolution.
 
     >>> round(float(threshold_at(RESOLUTIONS["double precision"])), 9)
     0.086724449

@@ -114,7 +114,7 @@ def wear_per_cycle(*, T: Real, K_c: Real, H_c: Real, R: Real, n: Real, p_inf: Re
 def log_coefficient(
     steepness: Real, *, h_0: Real, U_mean: Real, q: Real, g: Real, p_1: Real
 ) -> Real:
-    """Coefficient of ln N, rigid support; at U_a for its mean: how the rate there deviates."""
+    """Coefficient of ln N, rigid support; with U_a for its mean, that of the local rate."""
     return steepness * ((h_0 - U_mean) / q - g * p_1 / (q**3))
 
 
