@@ -1,1 +1,1 @@
-"""The commands of `derive`, a module each; SymPy is imported when one does its work."""
+"""The commands of `derive`, a module each; SymPy is imported at the execution of a command."""

@@ -18,22 +18,22 @@ def add_ids(parser: Parser) -> None:
 
 
 def equations(ids: list[str]) -> tuple[Equation, ...]:
-    """Return the equations of these ids, or all; UsageError tells every id that is unknown."""
+    """Return the equations of these ids, or all; UsageError names every unknown id."""
     from derive import catalogue
 
-    found, faults = [], []
+    chosen, faults = [], []
     for identifier in ids:
         try:
-            found.append(catalogue.equation(identifier))
+            chosen.append(catalogue.equation(identifier))
         except catalogue.UnknownEquationError as fault:
             faults.append(str(fault))
     if faults:
         raise UsageError("\n".join(faults))
-    return tuple(found) if ids else catalogue.all_equations()
+    return tuple(chosen) if ids else catalogue.all_equations()
 
 
 def answer(options: Options, document: object, text: str) -> Answer:
-    """Return an answer whose text is printed, or written whole to the file of `--output`."""
+    """Return an answer whose text is printed, or written to the file of `--output`."""
     if options.json or options.output is None:
         return Answer(document, lambda: text)
     if problem := files.obstacle(options.output):

@@ -15,7 +15,7 @@ from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 from derive.faults import UsageError
 
-TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # known before SymPy is imported
+TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # here without importing SymPy
 
 
 def add_arguments(parser: Parser) -> None:
@@ -36,7 +36,7 @@ def variant_names() -> tuple[str, ...]:
 
 
 def _short_names() -> tuple[str, ...]:
-    """Return the names of the variants as they may be typed."""
+    """Return the names of the variants, without the default law."""
     return tuple(name.removeprefix("tanh/") for name in variant_names())
 
 
@@ -51,18 +51,18 @@ def execute(options: Options) -> Answer:
         return Answer(list(names), lambda: "\n".join(names))
     if options.variant is None:
         raise UsageError("name a variant; `derive code --list` shows them")
-    wanted = options.variant if "/" in options.variant else f"tanh/{options.variant}"
-    if wanted not in names:
-        near = difflib.get_close_matches(wanted, names, n=1, cutoff=0.0)
+    name = options.variant if "/" in options.variant else f"tanh/{options.variant}"
+    if name not in names:
+        near = difflib.get_close_matches(name, names, n=1, cutoff=0.0)
         raise UsageError(f"{options.variant}: no such variant; did you mean {near[0]}?")
-    variant = VARIANTS[names.index(wanted)]
-    made = program(variant)
-    text = source(made, options.target)
+    variant = VARIANTS[names.index(name)]
+    functions = program(variant)
+    text = source(functions, options.target)
     document = {
-        "variant": wanted,
+        "variant": name,
         "target": options.target,
         "equations": list(variant.equations),
-        "operations": made.operations,
+        "operations": functions.operations,
         "source": text,
     }
     return arguments.answer(options, document, text)

@@ -1,7 +1,7 @@
 """`derive export`: the steps as lemmas for a proof assistant.
 
 examples:
-  derive export -o proof            every step as a lemma, and the theorems they cite
+  derive export -o proof            every step as a lemma, and the cited theorems
   derive export -o proof --check    compile them too; status 1 where Coq differs from the record
 """
 
@@ -25,26 +25,26 @@ def add_arguments(parser: Parser) -> None:
 
 
 def execute(options: Options) -> Answer:
-    """Write the files, and have them compiled."""
+    """Write the files; compile them if requested."""
     from derive.coq import export
 
     folder = Path(options.output)
-    made = export.Export(arguments.equations(options.ids))
+    lemmas = export.Export(arguments.equations(options.ids))
     try:
-        made.write(folder)
+        lemmas.write(folder)
     except OSError as fault:
         raise UsageError(f"--output: {fault}") from fault
     faults = ""
     if options.check:
         try:
-            faults = made.unrecorded + export.compiled(folder)
+            faults = lemmas.unrecorded + export.compiled(folder)
         except export.MissingError as fault:
             raise UsageError(str(fault)) from fault
-    counts = made.counts
-    did = "compiled" if options.check and not faults else "written"
-    said = f"{counts['closed']} of {counts['steps']} steps {did} as lemmas in {folder}\n{faults}"
+    counts = lemmas.counts
+    done = "compiled" if options.check and not faults else "written"
+    text = f"{counts['closed']} of {counts['steps']} steps {done} as lemmas in {folder}\n{faults}"
     return Answer(
         {**counts, "folder": str(folder), "faults": faults.splitlines()},
-        lambda: said,
+        lambda: text,
         status=terminal.FAILED if faults else terminal.DONE,
     )

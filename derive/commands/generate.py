@@ -15,7 +15,7 @@ from derive.command_line import Answer, Options, Parser, declare
 
 def add_arguments(parser: Parser) -> None:
     """Declare --check."""
-    declare(parser, "--check", "write nothing; status 1 when out of date")
+    declare(parser, "--check", "write nothing; status 1 if out of date")
 
 
 def folder() -> Path:
@@ -24,12 +24,12 @@ def folder() -> Path:
 
 
 def execute(options: Options) -> Answer:
-    """Write, or tell what would be written."""
+    """Write the files, or list those that are out of date."""
     from derive import generate
 
     changed = generate.outdated(folder()) if options.check else generate.write(folder())
-    wanted = generate.sources()
-    done = {name: "written" if name in wanted else "removed" for name in changed}
+    current = generate.sources()
+    done = {name: "written" if name in current else "removed" for name in changed}
     lines = [f"{'out of date' if options.check else done[name]}: {name}" for name in changed]
     return Answer(
         {"changed": list(changed), "written": not options.check},

@@ -44,9 +44,9 @@ def execute(options: Options) -> Answer:
         return _derivation(options, width)
     if options.law is not None and options.ids:
         raise UsageError("--law: its equations have no ids; leave these out")
-    found = arguments.equations(options.ids) if options.law is None else _of_law(options.law)
-    document = [{"id": e.id, "macro": "\\" + macro_name(e), "latex": e.latex} for e in found]
-    return arguments.answer(options, document, macros(found, width))
+    chosen = arguments.equations(options.ids) if options.law is None else _of_law(options.law)
+    document = [{"id": e.id, "macro": "\\" + macro_name(e), "latex": e.latex} for e in chosen]
+    return arguments.answer(options, document, macros(chosen, width))
 
 
 def _of_law(formula: str) -> Sequence[Equation]:
@@ -60,12 +60,12 @@ def _of_law(formula: str) -> Sequence[Equation]:
 
 
 def _derivation(options: Options, width: float) -> Answer:
-    """Print or write the derivation of one equation, told with those before it in the catalogue."""
+    """Print or write the derivation of one equation from those before it in the catalogue."""
     from derive.catalogue import equations_up_to
     from derive.typeset.derivation import prose
 
     if len(options.ids) != 1 or options.json or options.law is not None:
         raise UsageError("--derivation: name one equation, without --json or --law")
     arguments.equations(options.ids)
-    told = prose(equations_up_to(options.ids[0]), width)
-    return arguments.answer(options, None, told)
+    text = prose(equations_up_to(options.ids[0]), width)
+    return arguments.answer(options, None, text)

@@ -1,7 +1,7 @@
 """`derive list`: every equation: id, status, section, title.
 
 examples:
-  derive list            ids, sections, titles and what the machine says of each
+  derive list            ids, statuses, sections and titles
   derive list --json     the same for another program
 """
 
@@ -16,7 +16,7 @@ from derive.command_line import Answer, Options, Parser
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare nothing: the list takes no arguments."""
+    """Declare nothing: the command has no arguments."""
 
 
 def execute(options: Options) -> Answer:  # noqa: ARG001  # it has none
@@ -37,12 +37,12 @@ def execute(options: Options) -> Answer:  # noqa: ARG001  # it has none
 
 
 def _lines(rows: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """Yield an equation a line, and how many have which status."""
+    """Yield a line for each equation, and the number of equations of each status."""
     widths = [max(len(str(row[key])) for row in rows) for key in ("id", "status", "section")]
     for row in rows:
         cells = (str(row[key]) for key in ("id", "status", "section"))
         padded = "  ".join(cell.ljust(width) for cell, width in zip(cells, widths, strict=True))
         yield f"{padded}  {row['title']}"
-    found = Counter(row["status"] for row in rows)
-    parts = ", ".join(f"{number} {status}" for status, number in found.most_common())
-    yield f"\n{terminal.count(len(rows), 'equation')}: {parts}"
+    statuses = Counter(row["status"] for row in rows)
+    counts = ", ".join(f"{number} {status}" for status, number in statuses.most_common())
+    yield f"\n{terminal.count(len(rows), 'equation')}: {counts}"

@@ -77,7 +77,7 @@ def _status(step: Judgement, passed: bool) -> str:
 
 
 def _text(row: Mapping[str, Any], step: Judgement) -> str:
-    """Return what was done and to what, above the claim as it is read on paper."""
+    """Return the sentence of a step above its claim in two dimensions."""
     import sympy as sp
 
     from derive.hypotheses import sentences

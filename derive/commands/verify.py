@@ -2,8 +2,8 @@
 
 examples:
   derive verify             every check of every equation; status 1 if one does not hold
-  derive verify 8 10 21     those on which these equations rest
-  derive verify --deep 13   what fails without each hypothesis, as models show
+  derive verify 8 10 21     the checks of the steps of these equations
+  derive verify --deep 13   also a counterexample without each hypothesis, where one is found
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: Parser) -> None:
-    """Declare ids, and whether hypotheses are dropped."""
+    """Declare ids and --deep."""
     arguments.add_ids(parser)
-    declare(parser, "--deep", "drop each hypothesis in turn, too (minutes)")
+    declare(parser, "--deep", "also drop each hypothesis in turn (minutes)")
 
 
 def execute(options: Options) -> Answer:
@@ -49,16 +49,16 @@ def execute(options: Options) -> Answer:
 
 
 def _lines(verdicts: Sequence[EquationVerdict]) -> Iterator[str]:
-    """Yield an equation a line, and what came of all."""
+    """Yield a line for each equation, and the outcome of all."""
     width = max(len(verdict.id) for verdict in verdicts)
     for verdict in verdicts:
-        bad = [c for c in verdict.checks if not c.passed]
-        said = "; ".join(f"{c.kind} fails: {c.detail}" for c in bad)
-        held = terminal.count(len(verdict.checks), "check")
-        good = f"{held} {'holds' if len(verdict.checks) == 1 else 'hold'}"
-        yield f"{verdict.id.ljust(width)}  {verdict.status.value.ljust(18)}  {said or good}"
+        failed = [c for c in verdict.checks if not c.passed]
+        faults = "; ".join(f"{c.kind} fails: {c.detail}" for c in failed)
+        number = terminal.count(len(verdict.checks), "check")
+        success = f"{number} {'holds' if len(verdict.checks) == 1 else 'hold'}"
+        yield f"{verdict.id.ljust(width)}  {verdict.status.value.ljust(18)}  {faults or success}"
     total = sum(len(verdict.checks) for verdict in verdicts)
     counted = terminal.count(len(verdicts), "equation"), terminal.count(total, "check")
-    failed = sum(not verdict.passed for verdict in verdicts)
-    outcome = f"{failed} of the equations fail" if failed else "all hold"
+    false = sum(not verdict.passed for verdict in verdicts)
+    outcome = f"{false} of the equations fail" if false else "all hold"
     yield f"{', '.join(counted)}: {outcome}"
