@@ -48,7 +48,7 @@ def test_bad_usage_is_told_on_standard_error(call, arguments):
     ("arguments", "told"),
     [
         (["rnu", "section4"], "wear: error: rnu: there is no such command; did you mean run?"),
-        (["xyz"], "wear: error: xyz: there is no such command; `wear --help` lists what there is"),
+        (["xyz"], "wear: error: xyz: there is no such command; `wear --help` lists the commands"),
         (["--vesrion"], "--vesrion: there is no such command; did you mean --version?"),
         (["run", "section4", "--cylces", "3"], "run: error: --cylces: not understood; did you "),
         (["run", "section4", "section5"], "wear run: error: section5: not understood"),
