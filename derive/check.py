@@ -10,7 +10,7 @@ from typing import NamedTuple
 from .claims import Predicate
 from .coq.steps import proved_by_coq
 from .dimensions import homogeneous
-from .falsifier.judgements import tried, without
+from .falsifier.judgements import counterexample_without, try_on_models
 from .kernel import Judgement, replayed
 from .rules.assumption import Assume
 
@@ -39,14 +39,14 @@ def model_checks(judgement: Judgement) -> tuple[Check, ...]:
     """Try a step on models, none of which may break it; a hypothesis has no such check."""
     if isinstance(judgement.rule, Assume):
         return ()
-    answer = tried(judgement)
+    answer = try_on_models(judgement)
     return (Check("falsifier", answer.passed, str(answer)),)
 
 
 def condition_checks(judgement: Judgement) -> tuple[Check, ...]:
     """Drop each condition of a judgement in turn; report a model that then breaks the claim."""
     relations = (h for h in judgement.conditions if not isinstance(h.relation, Predicate))
-    broken = {h: without(judgement, h) for h in relations}
+    broken = {h: counterexample_without(judgement, h) for h in relations}
     none = "no model shows that it is needed"
     return tuple(
         Check("hypothesis", True, f"{h.typed}: {f'without it false for {by}' if by else none}")

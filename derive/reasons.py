@@ -20,7 +20,7 @@ from pathlib import Path
 
 from .claims import Predicate
 from .equations import Equation
-from .falsifier.judgements import without
+from .falsifier.judgements import counterexample_without
 from .hypotheses import Hypothesis
 from .kernel import Judgement
 from .typeset.display import inline
@@ -80,7 +80,7 @@ def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[R
 
 
 def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Reason:
-    broken = without(statement, condition)
+    broken = counterexample_without(statement, condition)
     model = tuple(map(inline, broken.model)) if broken else ()
     where = broken.where if broken else ""
     return Reason(identifier, condition.typed, condition.latex, model, where, _key(statement))

@@ -1,1 +1,1 @@
-"""The second route: models that satisfy hypotheses, and perhaps not the claim."""
+"""The falsifier: a search for models that satisfy the hypotheses and violate the claim."""

@@ -1,8 +1,8 @@
-"""Numbers: rational ones stay exact, so that 0/0 is seen; all else is a ball.
+"""Numbers: rational ones stay exact, so that 0/0 is detected; all others are balls.
 
 Overview
-    A ball of `python-flint` contains the value.  An operation whose operand has no value raises
-    Undefined, one whose ball is too wide to say Undecided.
+    A ball of `python-flint` contains the value.  An operation outside its domain raises
+    UndefinedError, one that a ball is too wide to decide UndecidedError.
 Key results
     FUNCTIONS, CONSTANTS    the heads of SymPy as functions of numbers
     integral, first_zero    of functions of a number
@@ -29,47 +29,47 @@ NOTHING = arb(10) ** -200
 
 
 _HALVINGS, _AGREEING = 24, arb(10) ** -12
-"""Of an interval of integration; relative distance of two rules that needs none."""
+"""Greatest number of bisections of an interval of integration; relative tolerance of two rules."""
 _HALVINGS_OF_ZERO = 110
 
 
-class Undefined(ArithmeticError):  # noqa: N818 - a fact about an expression, not a fault
+class UndefinedError(ArithmeticError):
     """The expression has no value there: a division by zero, the logarithm of a negative."""
 
 
-class Undecided(ArithmeticError):  # noqa: N818
-    """The balls are too wide, or the model cannot say."""
+class UndecidedError(ArithmeticError):
+    """The balls are too wide, or the model lacks the data to decide."""
 
 
-class NoValue(Undecided):
-    """The model itself gives a quantity no value."""
+class NoValueError(UndecidedError):
+    """The model itself has no value for a quantity."""
 
 
 def ball(x: Number) -> arb:
-    """Return a number as a finite ball."""
-    found = arb(x)
-    if not found.is_finite():
-        raise Undecided("not finite")
-    return found
+    """Return a number as a ball; UndecidedError unless it is finite."""
+    result = arb(x)
+    if not result.is_finite():
+        raise UndecidedError("not finite")
+    return result
 
 
 def fraction(expr: sp.Expr) -> fmpq:
-    """Return a SymPy number exactly."""
+    """Return a SymPy number as an exact fraction."""
     exact = sp.Rational(expr)
     return fmpq(int(exact.p), int(exact.q))
 
 
 def _divided(a: Number, b: Number) -> Number:
     if b == 0:
-        raise Undefined("division by zero")
+        raise UndefinedError("division by zero")
     if isinstance(b, arb) and b.contains(0):
-        raise Undecided("perhaps a division by zero")
+        raise UndecidedError("a possible division by zero")
     return a / b
 
 
-def _positive(x: Number, what: str) -> None:
+def _require_positive(x: Number, operation: str) -> None:
     if not arb(x) > 0:
-        raise Undefined(what) if arb(x) <= 0 else Undecided(what)
+        raise UndefinedError(operation) if arb(x) <= 0 else UndecidedError(operation)
 
 
 def _power(base: Number, exponent: Number) -> Number:
@@ -77,16 +77,16 @@ def _power(base: Number, exponent: Number) -> Number:
         n = int(exponent.p)
         if n < 0:
             return _divided(fmpq(1), _power(base, -exponent))
-        if isinstance(base, arb) and base.contains(0):  # a power of a ball takes its logarithm
+        if isinstance(base, arb) and base.contains(0):  # ``**`` would take its logarithm
             return reduce(mul, [base] * n, fmpq(1))
         return base**n
     if base == 0:
         if arb(exponent) > 0:
             return ZERO
-        raise Undefined("a power of zero")
+        raise UndefinedError("a power of zero")
     if exponent == fmpq(1, 2):
         return _root(base)
-    _positive(base, "a power of a negative")
+    _require_positive(base, "a power of a negative")
     return (exponent * _log(base)).exp()
 
 
@@ -96,12 +96,12 @@ def _root(x: Number) -> Number:
         if fmpq(p * p, q * q) == x:
             return fmpq(p, q)
     if arb(x) < 0:
-        raise Undefined("the root of a negative")
+        raise UndefinedError("the root of a negative")
     return arb(x).sqrt()
 
 
 def _log(x: Number) -> Number:
-    _positive(x, "the logarithm of what is not positive")
+    _require_positive(x, "the logarithm of a number that is not positive")
     return arb(x).log()
 
 
@@ -109,20 +109,20 @@ def sign(x: Number) -> fmpq:
     if x == 0:
         return ZERO
     if not (x > 0 or x < 0):
-        raise Undecided("a sign")
+        raise UndecidedError("a sign")
     return fmpq(1 if x > 0 else -1)
 
 
 def _floor(x: Number) -> fmpq:
     whole = arb(x).floor().unique_fmpz()
     if whole is None:
-        raise Undecided("a floor")
+        raise UndecidedError("a floor")
     return fmpq(whole)
 
 
 def _lambert(x: Number, branch: Number = ZERO) -> Number:
     if arb(x) + arb(-1).exp() < 0 or (branch != 0 and not arb(x) < 0):
-        raise Undefined("a Lambert function outside its domain")
+        raise UndefinedError("a Lambert function outside its domain")
     return arb(x).lambertw(0 if branch == 0 else -1)
 
 
@@ -131,7 +131,7 @@ def _smaller(a: Number, b: Number) -> Number:
 
 
 def _exact_at(point: int, value: int, function: Callable[[arb], arb]) -> Callable[..., Number]:
-    """Return a function that is exact at the one point where its value is rational."""
+    """Return a function with an exact value at the only point at which this is rational."""
     return lambda x: fmpq(value) if x == point else function(arb(x))
 
 
@@ -163,8 +163,10 @@ CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
 
 
 def integral(function: Callable[[Number], arb], low: Number, high: Number) -> arb:
-    """Integrate by Gauss and Legendre, on halves of halves until two orders agree; the error is
-    their distance."""
+    """Integrate by Gauss-Legendre quadrature of two orders, with bisection until they agree.
+
+    The error is their difference.
+    """
 
     def total(a: Number, b: Number, halvings: int) -> arb:
         half = (b - a) / 2
@@ -186,29 +188,31 @@ def _nodes(order: int) -> tuple[tuple[arb, arb], ...]:
 
 
 def first_zero(function: Callable[[Number], arb]) -> arb:
-    """Return the least positive zero: the first of the intervals, halved, in which balls do not
-    exclude one."""
+    """Return the least positive zero, by bisection of the first interval that may have one.
+
+    Intervals are excluded by the sign of the function on a ball; UndecidedError if none is left.
+    """
 
     def sign_at(x: Number) -> fmpq:
         try:
             return sign(function(x))
-        except Undecided:
+        except UndecidedError:
             return ZERO
 
     def first(low: fmpq, high: fmpq, halvings: int) -> arb | None:
         middle, width = (low + high) / 2, high - low
         if sign_at(arb(middle, arb(width / 2).upper())) != 0:
             return None
-        if halvings == 0:  # the zero is here, or near enough to be seen from here
+        if halvings == 0:  # the zero is in this interval, or very near
             if sign_at(low - 8 * width) * sign_at(high + 8 * width) < 0:
                 return arb(middle, arb(9 * width).upper())
-            raise Undecided("perhaps a zero")
+            raise UndecidedError("a possible zero")
         earlier = first(low, middle, halvings - 1)
         return first(middle, high, halvings - 1) if earlier is None else earlier
 
     ends = (ZERO, *(fmpq(137, 100) * fmpq(2) ** k for k in range(-20, 40)))
     for low, high in pairwise(ends):
-        found = first(low, high, _HALVINGS_OF_ZERO)
-        if found is not None:
-            return found
-    raise Undecided("no zero is found")
+        zero = first(low, high, _HALVINGS_OF_ZERO)
+        if zero is not None:
+            return zero
+    raise UndecidedError("no zero is found")

@@ -1,14 +1,14 @@
-"""Draws: models of some relations, built at random from test functions, deterministically.
+"""Draws: random models of relations, built from test functions; the seed determines them.
 
 Overview
-    Each equation is solved for one of its unknowns, linear in it: a datum, a field, a rate, an
-    initial value.  What no equation determines is drawn: data from a short list of degenerate,
-    ordinary and extreme values, fields from families of test functions (constants, ramps, roots,
-    exponentials, logarithms, sines, squares).  An inequality is met on purpose by a difference
-    that is drawn, zero included, a limit by a rest that vanishes or grows.  The same seed draws
-    the same value for the same quantity in every judgement.
+    Each equation is solved for one of its unknowns, in which it must be linear: a datum, a field,
+    a rate or an initial value.  Undetermined quantities are drawn: data from a short list of
+    degenerate, ordinary and extreme values, fields from families of test functions (constants,
+    ramps, roots, exponentials, logarithms, sines, squares).  An inequality is imposed by a random
+    difference of its sides, zero included, a limit by a remainder that vanishes or grows.  The
+    same seed gives the same quantity the same value in every judgement.
 Key results
-    drawn(relations, wanted, seed, free)    a model, or None where the draw does not fit
+    draw_model(relations, wanted, seed, free)    a model, or None if the draw fails
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sympy.core.relational import Relational
 
 from ..laws import GENERAL
 from ..symbols import DATA, symbol, t
-from .models import Model, of, quantities, reached
+from .models import Model, dependencies, forms_of, quantities
 from .truth import truth
 from .values import field_of
 
@@ -32,7 +32,7 @@ T, U, V = symbol("T"), symbol("U"), symbol("V")
 _ORDINARY = ("1", "1", "1", "1/2", "2", "3/4", "3/2", "3", "2/3")
 _EXTREME = ("1/4", "1/1000", "1000", "1/8", "20", "1000000", "1/1000000")
 WILD = 5
-"""Every so many seeds draw extreme values too."""
+"""One of so many seeds draws extreme values too."""
 _CLOSED = (sp.Limit, sp.Integral, sp.Subs)
 
 
@@ -42,58 +42,58 @@ LAWS = (
     1 / (1 + sp.exp(4 * _RATIO - 8)),
     (1 - (_RATIO - 1) / sp.sqrt(1 + (_RATIO - 1) ** 2)) / 2,
 )
-"""Positive, smooth, decreasing laws of contact."""
+"""Contact laws: positive, smooth and decreasing."""
 
 
 @cache
 def with_law(relation: sp.Basic, number: int) -> sp.Basic:
-    """Return a relation about any law of contact, for one of those that are tried."""
+    """Return a relation with one of LAWS in place of the unspecified contact law."""
     if not relation.has(_PHI):
         return relation
-    law = sp.Lambda(_RATIO, LAWS[number])
-    written = relation.replace(_PHI, law)
-    return written.replace(lambda e: isinstance(e, sp.Subs), lambda slope: slope.doit())
+    specific = relation.replace(_PHI, sp.Lambda(_RATIO, LAWS[number]))
+    return specific.replace(lambda e: isinstance(e, sp.Subs), lambda slope: slope.doit())
 
 
 @dataclass
 class _Draft:
-    """What is determined so far; ``loop``: the field that rests on itself.
+    """The values determined so far; ``implicit`` is the field that rests on itself.
 
-    ``moving`` are data over which a limit or a derivative is taken: no other datum follows them.
+    ``moving`` are data over which a limit or a derivative is taken: no other datum may depend on
+    them.
     """
 
     moving: frozenset[sp.Basic]
     values: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
-    loop: sp.Expr | None = None
+    implicit: sp.Expr | None = None
 
-    def takes(self, quantity: sp.Expr, value: sp.Expr, looped: bool) -> bool:
-        """Take ``quantity = value``, unless something else determines it already."""
+    def assign(self, quantity: sp.Expr, value: sp.Expr, may_be_implicit: bool) -> bool:
+        """Set ``quantity = value`` unless it is determined already; return whether it was set."""
         rate = isinstance(quantity, sp.Derivative)
-        field_or_rate = of(quantity.expr if rate else quantity)[:2]
+        field_or_rate = forms_of(quantity.expr if rate else quantity)[:2]
         if any(known in self.values for known in (quantity, *field_or_rate)):
             return False
-        rests_on = reached((value,), self.values, states=False)
+        rests_on = dependencies((value,), self.values, states=False)
         if _name(quantity) in DATA and rests_on & self.moving:
             return False
         if not rate and quantity in rests_on:
-            if not looped or not quantity.args or self.loop:
+            if not may_be_implicit or not quantity.args or self.implicit:
                 return False
-            self.loop = field_of(quantity)
+            self.implicit = field_of(quantity)
         self.values[quantity] = value
         return True
 
 
-def drawn(
+def draw_model(
     relations: tuple[sp.Basic, ...],
     wanted: tuple[sp.Basic, ...],
     seed: int,
     free: frozenset[sp.Expr] = frozenset(),
 ) -> Model | None:
-    """Return a model that is made to satisfy ``relations`` and gives all of ``wanted`` a value.
+    """Return a model that should satisfy ``relations`` and has values for all of ``wanted``.
 
-    The domains of the quantities in ``free`` are left on purpose.  Whatever is wanted, the same
-    relations have the same model, but for derivatives and limits over data, and now and then a
-    model on the edge of what is wanted.
+    Quantities in ``free`` are drawn outside of their domains.  The model depends on ``wanted``
+    only through derivatives and limits over data, except that now and then it makes a wanted
+    relation an equality.
     """
     chance = random.Random(f"{seed} edge")
     edges = [edge for relation in wanted for edge in relation.atoms(Relational)]
@@ -103,10 +103,10 @@ def drawn(
     over = frozenset().union(*map(slopes_over_data, (*relations, *wanted)))
     ends = frozenset().union(*map(_limits_over_data, (*relations, *wanted)))
     moving = ends.union(*(slope.variables for slope in over))
-    model = _made(relations, seed, free, frozenset(d.expr for d in over), moving)
+    model = _draw_quantities(relations, seed, free, frozenset(d.expr for d in over), moving)
     if model is not None:
         for quantity in quantities(sp.Tuple(*wanted)):
-            if not any(known in model.values for known in of(quantity)[:2]):
+            if not any(known in model.values for known in forms_of(quantity)[:2]):
                 model.values[quantity] = _draw(quantity, seed, quantity in free)
     return model
 
@@ -124,28 +124,28 @@ def _limits_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
 
 
 @lru_cache(maxsize=300)
-def _made(
+def _draw_quantities(
     relations: tuple[sp.Basic, ...],
     seed: int,
     free: frozenset[sp.Expr],
     slopes: frozenset[sp.Expr],
     moving: frozenset[sp.Basic],
 ) -> Model | None:
-    """Return a model of relations; what is differentiated over data (``slopes``) follows from
-    the data that are ``moving``."""
+    """Return a model of relations, in which the quantities ``slopes`` depend on the data
+    ``moving``, by which they are differentiated."""
     chance, draft = random.Random(seed), _Draft(moving)
     parts = [p for relation in relations for p in _parts(relation, chance)]
-    still = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
-    draft.values.update(still)
-    parts = [p if p.has(sp.Derivative) else p.xreplace(still) for p in parts]
-    for equations in (True, False):  # an inequality is met by what no equation determines
+    constants = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
+    draft.values.update(constants)
+    parts = [p if p.has(sp.Derivative) else p.xreplace(constants) for p in parts]
+    for equations in (True, False):  # inequalities set quantities that no equation determines
         these = (part for part in parts if isinstance(part, sp.Eq) == equations)
         imposed = (_imposed(part, chance, seed % WILD == WILD - 1) for part in these)
         _assign([part for part in imposed if part is not None], draft, chance, slopes)
     values = draft.values
     unknown = quantities(sp.Tuple(*relations, *slopes, T, U, *values.values())) - values.keys()
     for quantity in sorted(unknown, key=lambda q: (bool(q.args), str(q))):
-        _, *rate = of(quantity)[:2]
+        _, *rate = forms_of(quantity)[:2]
         if rate and rate[0] in values:
             least = sp.S.One if quantity.is_positive else sp.S.Zero
             first = _value(quantity, seed, quantity in free)
@@ -160,7 +160,7 @@ def _name(quantity: sp.Expr) -> str:
 
 
 def _constant(part: sp.Basic) -> sp.Expr | None:
-    """Return the field of which a relation says that it does not vary."""
+    """Return the field that a relation makes constant, None for other relations."""
     if isinstance(part, sp.Eq):
         left, right = part.args
         if isinstance(left, sp.Derivative) and right == 0 and left.expr.args == (t,):
@@ -174,43 +174,45 @@ def _fitting(
     quantity: sp.Expr,
     seed: int,
     outside: bool,
-    said: list[sp.Basic],
+    relations: list[sp.Basic],
     values: dict[sp.Expr, sp.Expr],
 ) -> sp.Expr:
-    """Draw a number or a test function of which holds what is said of it, as far as others are
-    known; the last one tried if none is found."""
+    """Draw a number or a test function that satisfies the relations with known quantities.
+
+    It is the last one tried if none of them does.
+    """
     others = {known: value for known, value in values.items() if known in quantities(known)}
     about = [
         relation
-        for relation in said
+        for relation in relations
         if quantity in quantities(relation)
         and not any(q.args for q in quantities(relation) - {quantity})
     ]
     for attempt in range(12 if about else 1):
-        made = _draw(quantity, seed + 97 * attempt, outside)
+        value = _draw(quantity, seed + 97 * attempt, outside)
         if quantity.subs(t, 0) in values:
-            made = made - made.subs(t, 0) + values[quantity.subs(t, 0)]
-        alone = Model({**others, quantity: made})
-        if all(truth(relation, alone).holds is not False for relation in about):
+            value = value - value.subs(t, 0) + values[quantity.subs(t, 0)]
+        partial = Model({**others, quantity: value})
+        if all(truth(relation, partial).holds is not False for relation in about):
             break
-    return made
+    return value
 
 
 def _model(draft: _Draft) -> Model | None:
     states = {key.expr for key in draft.values if isinstance(key, sp.Derivative)}
     starts = {key for key in draft.values if key.args == (0,) and key.func(t) not in states}
     values = {key: value for key, value in draft.values.items() if key not in starts}
-    model = Model(values, draft.loop)
+    model = Model(values, draft.implicit)
     try:
         if model.states:
-            _ = model.motion  # there is one
+            _ = model.motion  # raises if there is none
     except (ArithmeticError, RecursionError, ValueError):
         return None
     return model
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
-    """Split a conjunction; of a disjunction take one part."""
+    """Yield the parts of a conjunction, and one random part of a disjunction."""
     if isinstance(relation, sp.And):
         for part in relation.args:
             yield from _parts(part, chance)
@@ -221,7 +223,7 @@ def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
 
 
 def _imposed(part: sp.Basic, chance: random.Random, wild: bool) -> sp.Basic | None:
-    """Return the equation by which a relation is met on purpose; None to leave it to chance."""
+    """Return an equation that implies a relation; None to leave the relation to chance."""
     if isinstance(part, (sp.Gt, sp.Ge, sp.Lt, sp.Le)):
         high, low = part.gts, part.lts
         if chance.random() > 0.7 or low.is_infinite or high.is_infinite:
@@ -247,11 +249,11 @@ def _imposed(part: sp.Basic, chance: random.Random, wild: bool) -> sp.Basic | No
 def _approaching(
     inside: sp.Expr, point: sp.Expr, value: sp.Expr, chance: random.Random
 ) -> sp.Basic:
-    """Return an equation by which an expression has a limit."""
+    """Return an equation that implies the limit of an expression."""
     if value.is_infinite:
         wave = sp.sin(2 * sp.pi * t)
-        grown = chance.choice((t, 1 + t, sp.log(1 + t), sp.sqrt(1 + t), sp.exp(t), t + wave))
-        return sp.Eq(inside, grown * sp.sign(value), evaluate=False)
+        growth = chance.choice((t, 1 + t, sp.log(1 + t), sp.sqrt(1 + t), sp.exp(t), t + wave))
+        return sp.Eq(inside, growth * sp.sign(value), evaluate=False)
     if point == 0:
         rest = chance.choice((sp.S.Zero, t, sp.tanh(t), -t))
         return sp.Eq(inside, value + rest, evaluate=False)
@@ -267,59 +269,62 @@ def _approaching(
 def _assign(
     equations: list[sp.Eq], draft: _Draft, chance: random.Random, slopes: frozenset[sp.Expr]
 ) -> None:
-    """Let each equation determine one unknown; those that nothing can be solved for are left.
+    """Let each equation determine one unknown; skip those without a solution.
 
-    What is differentiated with respect to data (``slopes``) must follow from the data.
+    The quantities ``slopes``, which are differentiated by data, must be determined by equations.
     """
-    rest = []
-    bent = chance.choice(equations) if equations and chance.random() < 0.6 else None
+    remaining = []
+    varied = chance.choice(equations) if equations and chance.random() < 0.6 else None
     for equation in equations:
         offers = list(solutions(equation))
         if slopes:
             offers = [offer for offer in offers if offer[0] in slopes] or offers[:1]
         if not offers:
             continue
-        if equation is bent:
+        if equation is varied:
             factors = [s for s in _coefficients(equation) if s not in draft.values]
             if factors and chance.random() < 0.5:
                 draft.values[chance.choice(factors)] = sp.S.Zero
                 continue
             chance.shuffle(offers)
-        if not draft.takes(*offers[0], looped=False):
-            rest.append(offers)
-    for offers in rest:
-        if not draft.takes(*offers[0], looped=True):
-            any(draft.takes(*offer, looped=False) for offer in offers[1:])
+        if not draft.assign(*offers[0], may_be_implicit=False):
+            remaining.append(offers)
+    for offers in remaining:
+        if not draft.assign(*offers[0], may_be_implicit=True):
+            any(draft.assign(*offer, may_be_implicit=False) for offer in offers[1:])
 
 
 @cache
 def solutions(equation: sp.Eq) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
-    """Return what an equation can be solved for, each with its value; the left side first."""
+    """Return the unknowns of an equation that it determines, with their values, its left side
+    first."""
     plain = equation.replace(lambda e: isinstance(e, _CLOSED), lambda _: sp.Dummy())
     rates = sorted(plain.atoms(sp.Derivative), key=str)
     if any(set(d.variables) != {t} for d in rates):
         return ()
     moving = {d.expr for d in rates}
     fields = sorted(plain.atoms(AppliedUndef), key=str)
-    found = [d for d in rates if d.variables == (t,) and d.expr.args == (t,)]
-    found += [f for f in fields if f.args[0] == 0 or (f.args[0] == t and f not in moving)]
+    unknowns = [d for d in rates if d.variables == (t,) and d.expr.args == (t,)]
+    unknowns += [f for f in fields if f.args[0] == 0 or (f.args[0] == t and f not in moving)]
     if not plain.has(t, AppliedUndef):
-        found += sorted(plain.free_symbols - plain.atoms(sp.Dummy), key=str)
-    solved = [(q, value) for q in found if (value := _solved(equation, q)) is not None]
-    return tuple(sorted(solved, key=lambda offer: offer[0] != equation.lhs))
+        unknowns += sorted(plain.free_symbols - plain.atoms(sp.Dummy), key=str)
+    offers = [(q, value) for q in unknowns if (value := _solved(equation, q)) is not None]
+    return tuple(sorted(offers, key=lambda offer: offer[0] != equation.lhs))
 
 
 @cache
 def _coefficients(equation: sp.Eq) -> tuple[sp.Symbol, ...]:
-    """Return the data that may vanish and multiply a whole side of an equation."""
+    """Return the data that may vanish and are factors of a side of an equation."""
     factors = {f for side in equation.args for f in sp.Mul.make_args(sp.factor_terms(side))}
     return tuple(s for s in sorted(factors, key=str) if isinstance(s, sp.Symbol)
                  and not s.is_positive and s != t)  # fmt: skip
 
 
 def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
-    """Return what a quantity equals, where the equation is linear in it; None where the value
-    still rests on it, at this time or another."""
+    """Return the value of a quantity by an equation that is linear in it.
+
+    None if it is not, or if the value depends on the quantity at another time.
+    """
     left, right = equation.args
     if quantity in (left, right) and not (other := right if left == quantity else left).has(
         quantity
@@ -342,25 +347,27 @@ def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
 
 
 def _polynomial(expr: sp.Expr, unknown: sp.Symbol) -> bool:
-    """Return whether an unknown stands in sums and products alone."""
+    """Return whether an unknown is only in sums and products."""
     if not expr.has(unknown) or expr == unknown:
         return True
     return isinstance(expr, (sp.Add, sp.Mul)) and all(_polynomial(a, unknown) for a in expr.args)
 
 
 def slides_fast(seed: int) -> bool:
-    """Return whether a model slides fast: what wear tends to is seen within a few periods of its
-    load, but of counterexamples those that slide slowly show more."""
+    """Return whether a model has a high slip rate.
+
+    Then wear approaches its limit within a few periods; a slow counterexample shows more.
+    """
     return seed % WILD == 3
 
 
 def _draw(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Draw a number or a test function of time, outside of its domain if asked."""
+    """Draw a number or a test function of time, ``outside`` of its domain or inside."""
     return (test_function if quantity.args else _value)(quantity, seed, outside)
 
 
 def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Draw a number for a quantity, outside of its domain if asked."""
+    """Draw a number for a quantity, ``outside`` of its domain or inside."""
     chance = random.Random(f"{seed} {_name(quantity)}")
     wild = seed % WILD == WILD - 1 and chance.random() < 0.4
     size = sp.Rational(chance.choice(_EXTREME if wild else _ORDINARY))
@@ -376,7 +383,7 @@ def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
 
 
 def test_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Return a test function of time."""
+    """Return a test function of time, ``outside`` of the domain of a quantity or inside."""
     chance = random.Random(f"{seed} {_name(varying)}")
     s = t / T
     size = sp.Rational(chance.choice(("1", "1", "1", "2", "1/2", "-1", "1/4")))
@@ -388,7 +395,7 @@ def test_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
         both, 1 + s, 2 + wave, s - sp.log(1 + s), sp.cos(2 * sp.pi * s),
     ]  # fmt: skip
     shape = chance.choice(shapes)
-    if varying == symbol("U_a"):  # one kind of load after the other
+    if varying == symbol("U_a"):  # the seed determines the kind of load
         loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, wave, 1 - sp.exp(-s), sp.sqrt(s),
                  sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), both, -s,
                  s * wave)  # fmt: skip

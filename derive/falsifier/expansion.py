@@ -1,13 +1,14 @@
-"""Averaged expansions in numbers: the coefficients that the names c_n and w_n stand for.
+"""Averaged expansions in numbers: the values of the coefficients c_n and w_n.
 
 Overview
-    Of ``ds/dtau = rho F(s, tau)/F(oo)`` the powers of 1/s in F/F(oo) are those of a polynomial
-    through nine values of F, very near 1/s = 0 and in many digits.  With ``s = m + w_1/m + ...``
-    and ``dm/dtau = rho (1 + c_1/m + ...)`` both sides are series in 1/m, whose coefficients are
-    known at equal phases: at each order c_n is the mean of what remains, w_n its integral.
+    For ``ds/dtau = rho F(s, tau)/F(oo)`` the coefficients of the powers of 1/s in F/F(oo) are
+    those of a polynomial through nine values of F, very near 1/s = 0 and in many digits.  With
+    ``s = m + w_1/m + ...`` and ``dm/dtau = rho (1 + c_1/m + ...)`` both sides are series in 1/m,
+    with coefficients known at equal phases: at each order c_n is the mean of the known terms, w_n
+    the integral of the rest.
 Key results
-    Expanded        a coefficient at a phase, or a derivative of it, as an expression
-    coefficients    drifts and oscillations of a law that is given as a function
+    ExpansionCoefficient   a coefficient at a phase, or a derivative of it, as an expression
+    coefficients           drifts and oscillations of a law that is given as a function
 References
     Sanders, Verhulst and Murdock, Averaging Methods in Nonlinear Dynamical Systems, chapter 2.
 """
@@ -27,9 +28,9 @@ _NEAR, _VALUES = fmpq(1, 10**12), 9
 _HARMONICS = np.fft.rfftfreq(PHASES, 1 / PHASES)
 
 
-class Expanded(sp.Expr):
-    """``Expanded(n, k, F, s, tau, rho, phase)``: the k-th derivative of w_n at a phase; c_n for
-    k = -1."""
+class ExpansionCoefficient(sp.Expr):
+    """``ExpansionCoefficient(n, k, F, s, tau, rho, phase)``: the k-th derivative of w_n at a
+    phase; c_n for k = -1."""
 
     is_real = True
     is_commutative = True
@@ -44,12 +45,14 @@ class Expanded(sp.Expr):
         n, order, *law, phase = self.args
         if order == -1:
             return sp.S.Zero
-        return Expanded(n, order + 1, *law, phase) * sp.diff(phase, variable)
+        return ExpansionCoefficient(n, order + 1, *law, phase) * sp.diff(phase, variable)
 
 
 def coefficients(law: Callable[[fmpq, fmpq], arb], rho: float, n: int) -> tuple[Array, Array]:
-    """Return c_0 to c_n, and w_0 to w_n at equal phases, shape ``(n + 1, PHASES)``, of a law that
-    is a function of s and of the phase."""
+    """Return c_0 to c_n, and w_0 to w_n at equal phases, shape ``(n + 1, PHASES)``.
+
+    ``law`` is F, a function of s and of the phase.
+    """
     powers = _powers(law, n)
     drift, waves = np.eye(1, n + 1)[0], np.zeros((n + 1, PHASES))
     for j in range(1, n + 1):
@@ -70,14 +73,14 @@ def coefficients(law: Callable[[fmpq, fmpq], arb], rho: float, n: int) -> tuple[
 def _powers(law: Callable[[fmpq, fmpq], arb], n: int) -> Array:
     """Return the coefficients of the powers of 1/s in F/F(oo) at equal phases."""
     nodes = range(1, _VALUES + 1)
-    solved = fmpq_mat([[fmpq(j) ** k for k in range(_VALUES)] for j in nodes]).inv()
-    found = []
+    inverse = fmpq_mat([[fmpq(j) ** k for k in range(_VALUES)] for j in nodes]).inv()
+    rows = []
     for phase in range(PHASES):
         values = [law(1 / (j * _NEAR), fmpq(phase, PHASES)) for j in nodes]
-        sums = [sum((solved[k, j] * v for j, v in enumerate(values)), arb(0))
+        sums = [sum((inverse[k, j] * v for j, v in enumerate(values)), arb(0))
                 for k in range(n + 1)]  # fmt: skip
-        found.append([float((a / _NEAR**k / sums[0]).mid()) for k, a in enumerate(sums)])
-    return np.array(found).T
+        rows.append([float((a / _NEAR**k / sums[0]).mid()) for k, a in enumerate(sums)])
+    return np.array(rows).T
 
 
 def _product(a: Array, b: Array) -> Array:
@@ -85,16 +88,16 @@ def _product(a: Array, b: Array) -> Array:
 
 
 def _reciprocal(series: Array) -> Array:
-    """Return 1/series, whose first coefficient is 1."""
-    found = np.zeros_like(series)
-    found[0] = 1
+    """Return 1/series for a series whose first coefficient is 1."""
+    inverse = np.zeros_like(series)
+    inverse[0] = 1
     for j in range(1, len(series)):
-        found[j] = -sum(series[i] * found[j - i] for i in range(1, j + 1))
-    return found
+        inverse[j] = -sum(series[i] * inverse[j - i] for i in range(1, j + 1))
+    return inverse
 
 
 def _integrated(rate: Array) -> Array:
-    """Return the integral without mean of a periodic function without its mean."""
+    """Return the periodic integral, of zero mean, of a periodic function without its mean."""
     waves = np.fft.rfft(rate)
     waves[1:] /= 2j * np.pi * _HARMONICS[1:]
     waves[0] = 0

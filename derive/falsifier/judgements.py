@@ -1,8 +1,8 @@
-"""Judgements tried on models: what `derive verify` asks, and the reasons of hypotheses.
+"""Trials of judgements on models, for `derive verify` and the reasons of hypotheses.
 
 Key results
-    tried(judgement)              does a model break it?
-    without(judgement, dropped)   what breaks it without one of its hypotheses
+    try_on_models(judgement)                     a model that breaks it, or the number of trials
+    counterexample_without(judgement, dropped)   a model that breaks it without one hypothesis
 """
 
 from __future__ import annotations
@@ -15,33 +15,33 @@ from ..claims import Asymptotic, Claim, Predicate, Property
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
-from .verdict import Answer, Counterexample, falsify
+from .verdict import Counterexample, TrialResult, falsify
 
 _DRAWS, _ENOUGH, _SEEDS = 12, 2, 60
 _CYCLES = symbol("N")
 
 
-def tried(judgement: Judgement) -> Answer:
-    """Return what models say of a judgement."""
-    return _answer(_relations(judgement), _claimed(judgement.claim))
+def try_on_models(judgement: Judgement) -> TrialResult:
+    """Return the result of trying a judgement on models."""
+    return _result(_relations(judgement), _decidable(judgement.claim))
 
 
 @cache
-def _answer(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> Answer:
+def _result(relations: tuple[sp.Basic, ...], claim: sp.Basic) -> TrialResult:
     return falsify(relations, claim, _DRAWS, _ENOUGH)
 
 
 def _relations(judgement: Judgement) -> tuple[sp.Basic, ...]:
-    """Return the hypotheses; for a relation towards an end of a field, that it tends there."""
+    """Return the hypotheses, and for an asymptotic claim in a field the limit of that field."""
     claim = judgement.claim
     given = (hypothesis.relation for hypothesis in judgement.hypotheses)
-    found = tuple(relation for relation in given if not isinstance(relation, Predicate))
+    relations = tuple(relation for relation in given if not isinstance(relation, Predicate))
     if not isinstance(claim, Asymptotic) or isinstance(claim.variable, sp.Symbol):
-        return found
-    return *found, sp.Eq(sp.Limit(claim.variable, t, sp.oo), claim.point, evaluate=False)
+        return relations
+    return *relations, sp.Eq(sp.Limit(claim.variable, t, sp.oo), claim.point, evaluate=False)
 
 
-def _claimed(claim: Claim) -> sp.Basic:
+def _decidable(claim: Claim) -> sp.Basic:
     """Return a claim as a relation that models decide: an asymptotic one as a limit in time."""
     if not isinstance(claim, Asymptotic):
         return sp.true if isinstance(claim, Property) else claim.relation
@@ -49,13 +49,15 @@ def _claimed(claim: Claim) -> sp.Basic:
     variable, point = claim.variable, claim.point
     if variable != t and point == sp.oo:
         rest, variable = rest.subs(_CYCLES, t / symbol("T")), t
-    elif not isinstance(variable, sp.Symbol):  # a field that tends to its end
+    elif not isinstance(variable, sp.Symbol):  # a field, which tends to the point
         variable, point = t, sp.oo
     return sp.Eq(sp.Limit(rest, variable, point), 0, evaluate=False)
 
 
-def without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
-    """Return a model of all other hypotheses that breaks the claim; None if none is found: the
-    hypothesis is superfluous as far as models go."""
-    relations, claim = _relations(judgement), _claimed(judgement.claim)
+def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
+    """Return a model of all other hypotheses that breaks the claim, None if none is found.
+
+    None is no proof that the hypothesis is superfluous.
+    """
+    relations, claim = _relations(judgement), _decidable(judgement.claim)
     return falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample

@@ -1,13 +1,13 @@
-"""Models: data, and fields over time, of which every hypothesis can be asked whether it holds.
+"""Models: data, and fields over time, in which hypotheses and claims are evaluated.
 
 Overview
-    A model says of quantities what they equal: of a datum a, a field f(t), a rate df/dt or an
-    initial value f(0).  A field of which the rate is given is a state, the solution of its
-    differential equation; a field that rests on itself, as the pressure on a support does, is
-    the root of its equation.
+    A model has values of quantities: of a datum a, a field f(t), a rate df/dt or an initial value
+    f(0).  A field with a given rate is a state, the solution of its differential equation; an
+    implicit field, whose value rests on itself like the pressure on a compliant support, is the
+    root of its equation.
 Key results
-    Model      what values.py evaluates in
-    reached    the quantities on which expressions rest
+    Model          the values of data and fields, for ``values.py``
+    dependencies   the quantities on which expressions rest
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from ..symbols import symbol, t
 from . import trend
-from .balls import BITS, ZERO, NoValue, Number, Undecided, Undefined, ball, fraction
+from .balls import BITS, ZERO, NoValueError, Number, UndecidedError, UndefinedError, ball, fraction
 from .motion import Motion
 from .system import System
 from .values import Moment, compiled, field_of
@@ -31,19 +31,20 @@ from .values import Moment, compiled, field_of
 _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
 """Times of a window: a factor, and a phase in hundredths of the period."""
 _EARLY = (0, 137, 620, 1210, 2870)
-"""Times at which what is claimed for all times is tried, in thousandths of the period."""
+"""Times at which claims about all times are tried, in thousandths of the period."""
 _LATE = (10**2, 3 * 10**5)
 _NEAR, _FAR, _FARTHEST = 10**3, 10**5, 10**8
-"""Periods after which trends are read; where rounding hides them; where refusals are confirmed."""
+"""Numbers of periods after which trends are read: before rounding hides them; by default; to
+confirm a refusal."""
 
 _DEEP = 40
-"""Formulas inside formulas; more than a model has."""
+"""Bound of the nesting of formulas in a model."""
 
 _TRUSTED = arb(10) ** -12
 """Relative error of a state."""
 
 _UNMOVED = arb(10) ** -6
-"""Relative width of a constant up to which it shows that a datum has no influence on it."""
+"""Relative width of a constant up to which a datum is known to have no influence on it."""
 
 Windows = list[list[arb]]
 
@@ -55,23 +56,25 @@ def quantities(expr: sp.Basic) -> frozenset[sp.Expr]:
     return frozenset((*fields, *(s for s in expr.free_symbols if s != t)))
 
 
-def reached(
+def dependencies(
     expressions: Iterable[sp.Basic], values: Mapping[sp.Basic, sp.Expr], states: bool = True
 ) -> set[sp.Expr]:
-    """Return the quantities on which expressions rest, through the values of quantities; with
-    ``states`` also through rates and initial values."""
+    """Return the quantities on which expressions rest, directly or by the values of others.
+
+    With ``states`` rates and initial values count too.
+    """
     waiting, seen = list(expressions), set[sp.Expr]()
     while waiting:
         for found in quantities(waiting.pop()) - seen:
             seen.add(found)
-            keys = of(found) if states else (found,)
+            keys = forms_of(found) if states else (found,)
             waiting += [values[key] for key in keys if key in values]
     return seen
 
 
 @cache
-def of(quantity: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Return what a model may give of a quantity: itself; of a field its rate and start too."""
+def forms_of(quantity: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Return the forms of a quantity in a model: itself; for a field also its rate and start."""
     if quantity.args != (t,):
         return (quantity,)
     return quantity, quantity.diff(t), quantity.subs(t, 0)
@@ -79,11 +82,11 @@ def of(quantity: sp.Expr) -> tuple[sp.Expr, ...]:
 
 @dataclass(eq=False)
 class Model:
-    """One model: of quantities what they equal, in terms of one another.  ``loop`` is the field
-    that is the root of its equation."""
+    """Values of quantities, in terms of one another; ``implicit`` is the field that is the root
+    of its equation."""
 
     values: dict[sp.Expr, sp.Expr]
-    loop: sp.Expr | None = None
+    implicit: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         self._known: dict[object, Number] = {}
@@ -94,12 +97,12 @@ class Model:
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
         """Return the fields that follow from their rates, with their places."""
-        found = (field_of(key.expr) for key in self.values if isinstance(key, sp.Derivative))
-        return {state: place for place, state in enumerate(sorted(found, key=str))}
+        fields = (field_of(key.expr) for key in self.values if isinstance(key, sp.Derivative))
+        return {state: place for place, state in enumerate(sorted(fields, key=str))}
 
     @cached_property
     def period(self) -> fmpq:
-        """Return the period where it is a number, else 1."""
+        """Return the period if it is a positive number, else 1."""
         period = self.values.get(symbol("T"), sp.S.One)
         return fraction(period) if period.is_Rational and period > 0 else fmpq(1)
 
@@ -114,159 +117,163 @@ class Model:
         )
 
     def constant(self, symbol: sp.Symbol) -> Number:
-        """Return a datum; one that others define is computed from them."""
+        """Return the value of a datum, which may rest on other data."""
         key = (symbol, ctx.prec)
         if key not in self._known:
             if symbol not in self.values:
-                raise Undecided(f"{symbol} is not in the model")
-            self._known[key] = self._valued(self.values[symbol])
+                raise UndecidedError(f"{symbol} is not in the model")
+            self._known[key] = self._evaluate(self.values[symbol])
         return self._known[key]
 
     def field(self, field: sp.Expr, at: Number, order: int = 0) -> Number:
-        """Return a field at a time, or its derivative of an order."""
+        """Return the value of a field at a time, or of its derivative of an order."""
         key = (field, order, int(at.p), int(at.q), ctx.prec) if isinstance(at, fmpq) else None
         if key in self._known:
             return self._known[key]
-        value = self._evaluated(field, at, order)
+        value = self._field_value(field, at, order)
         if key is not None:
             self._known[key] = value
         return value
 
-    def _evaluated(self, field: sp.Expr, at: Number, order: int) -> Number:
+    def _field_value(self, field: sp.Expr, at: Number, order: int) -> Number:
         if order == 0 and field in self.states:
             return self._state(field, at)
-        if order == 0 and field is self.loop:
+        if order == 0 and field is self.implicit:
             return self._root(at)
-        return self._valued(self.formula(field, order), at)
+        return self._evaluate(self.formula(field, order), at)
 
     def _state(self, field: sp.Expr, at: Number) -> Number:
         if at == 0:
-            return self._valued(self.values[field.subs(t, 0)])
+            return self._evaluate(self.values[field.subs(t, 0)])
         values, rounding = self.motion.at(float(arb(at)))
         place = self.states[field]
         value = arb(float(values[place]))
         return value + arb(0, (abs(value) * _TRUSTED + float(rounding[place])).upper())
 
-    def gain(self, field: sp.Expr, begin: Number, end: Number) -> Number:
-        """Return what a field gains from one time to another."""
-        begins, width = float(arb(begin)), float(arb(end - begin))
+    def increment(self, field: sp.Expr, begin: Number, end: Number) -> Number:
+        """Return the increment of a field between two times."""
+        first, width = float(arb(begin)), float(arb(end - begin))
         if field not in self.states or width <= 0:
             return self.field(field, end) - self.field(field, begin)
-        gained = float(self.motion.gained(begins, width)[self.states[field]])
-        return arb(gained, (abs(gained) * _TRUSTED).upper())
+        increment = float(self.motion.increment(first, width)[self.states[field]])
+        return arb(increment, (abs(increment) * _TRUSTED).upper())
 
     def _root(self, at: Number) -> arb:
         states = np.array([[float(ball(self._state(f, at)).mid())] for f in self.states])
         (y,) = self.system.root(np.array([float(arb(at))]), states)
         if not np.isfinite(y):
-            raise Undecided("a loop without a root")
+            raise UndecidedError("an implicit field without a root")
         return arb(float(y), 1e-11 * abs(float(y)) + 1e-14)
 
-    def _valued(self, expr: sp.Expr, at: Number = ZERO) -> Number:
-        """Return what a quantity equals; a claim is not false because a model is none."""
+    def _evaluate(self, expr: sp.Expr, at: Number = ZERO) -> Number:
+        """Return the value of a quantity; NoValueError, which refutes no claim, if it has none."""
         try:
             return compiled(expr)(Moment(self, at))
-        except Undefined as reason:
-            raise NoValue(f"the model has no value for {expr}") from reason
+        except UndefinedError as reason:
+            raise NoValueError(f"the model has no value for {expr}") from reason
 
     def formula(self, field: sp.Expr, order: int) -> sp.Expr:
-        """Return what a field, or its derivative, is computed from; jumps have no slope."""
+        """Return the expression of a field, or of its derivative without jumps."""
         key = (field, order)
         if key not in self._formulas:
             self._formulas[key] = self._formula(field, order)
         return self._formulas[key]
 
     def _formula(self, field: sp.Expr, order: int) -> sp.Expr:
-        given = of(field)[order] if order < 2 else None
+        given = forms_of(field)[order] if order < 2 else None
         if given in self.values:
             return self.values[given]
         if order == 0:
-            raise Undecided(f"{field} is not in the model")
-        if (field, order) == (self.loop, 1):  # y' = G_t + G_y y'
+            raise UndecidedError(f"{field} is not in the model")
+        if (field, order) == (self.implicit, 1):  # y' = G_t + G_y y'
             slope = sp.Dummy()
-            whole = _slope(self.inlined(self.values[field])).xreplace({of(field)[1]: slope})
+            whole = _slope(self.inlined(self.values[field])).xreplace({forms_of(field)[1]: slope})
             return whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope))
         return _slope(self.formula(field, order - 1))
 
     def inlined(self, expr: sp.Expr) -> sp.Expr:
-        """Return an expression in terms of time, states, the loop, data and initial values."""
-        kept = {*self.states, self.loop}
+        """Return an expression in time, states, the implicit field, data and initial values."""
+        kept = {*self.states, self.implicit}
         for _ in range(_DEEP):
             rates = {d: self.formula(d.expr, d.derivative_count) for d in expr.atoms(sp.Derivative)}
             fields = (f for f in expr.atoms(AppliedUndef) - kept if f.args == (t,))
             if not (parts := rates or {f: self.formula(f, 0) for f in fields}):
                 return expr
             expr = expr.xreplace(parts)
-        raise Undecided(f"{expr} rests on itself")
+        raise UndecidedError(f"{expr} rests on itself")
 
     @cached_property
     def system(self) -> System:
-        """The equations to integrate."""
-        loops = [self.loop] if self.loop else []
+        """Return the equations to integrate."""
+        implicit = [self.implicit] if self.implicit else []
         rates = [self.inlined(self.formula(state, 1)) for state in self.states]
-        image = [self.inlined(self.formula(loop, 0)) for loop in loops]
-        return System((t, *self.states, *loops), rates, image, self._in_floats)
+        image = [self.inlined(self.formula(field, 0)) for field in implicit]
+        return System((t, *self.states, *implicit), rates, image, self._in_floats)
 
     def _in_floats(self, quantity: sp.Expr) -> float:
-        """Return a datum, or a field at the beginning."""
+        """Return the value of a datum, or of a field at the start, as a float."""
         with ctx.workprec(BITS):
             return float(ball(compiled(quantity)(Moment(self))).mid())
 
     @cached_property
     def motion(self) -> Motion:
-        """The states over time: one motion for all models that agree in what they rest on."""
-        roots = (*self.states, *([self.loop] if self.loop else []))
-        needed = reached(roots, self.values)
-        held = {key: self.values[key] for q in needed for key in of(q) if key in self.values}
-        return _integrated(frozenset(held.items()), self.loop)
+        """Return the states over time, shared by models with the same values for them."""
+        roots = (*self.states, *([self.implicit] if self.implicit else []))
+        needed = dependencies(roots, self.values)
+        used = {key: self.values[key] for q in needed for key in forms_of(q) if key in self.values}
+        return _integrated(frozenset(used.items()), self.implicit)
 
     def limit(self, expr: sp.Limit) -> arb:
-        """Return a limit, with the error that its trend shows: from as late as resolves it."""
+        """Return a limit with an error from its trend, at the latest times that resolve it."""
         try:
-            return trend.limit(self._late(expr, _FARTHEST))
-        except Undecided:
-            return trend.limit(self._late(expr, _FAR))
+            return trend.limit(self._trend_values(expr, _FARTHEST))
+        except UndecidedError:
+            return trend.limit(self._trend_values(expr, _FAR))
 
     def latest(self, expr: sp.Limit) -> arb:
-        """Return the last value from which a limit was judged."""
-        return self._late(expr, _FAR)[-1][-1]
+        """Return the last value of the trend of a limit."""
+        return self._trend_values(expr, _FAR)[-1][-1]
 
-    def confirmed(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
-        """Judge a trend; a refusal, from fields that may not have left their start, again later;
-        what rounding hides, earlier."""
-        outcome = judge(self._late(expr, _FAR)[::2])
+    def judge_limit(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
+        """Judge a trend; confirm a refusal at later times, and retry an open case at earlier ones.
+
+        At early times fields may not have left their start, at late ones rounding may hide them.
+        """
+        outcome = judge(self._trend_values(expr, _FAR)[::2])
         if outcome or not self.states or expr.args[2] != sp.oo:
             return outcome
         if outcome is False:
-            return judge(self._late(expr, _FARTHEST)[::2]) or False
-        return judge(self._late(expr, _NEAR)[::2]) or None
+            return judge(self._trend_values(expr, _FARTHEST)[::2]) or False
+        return judge(self._trend_values(expr, _NEAR)[::2]) or None
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
-        """Return the derivative of a constant with respect to one datum, all others held; it is
-        0 where half as much again of the datum changes nothing."""
+        """Return the derivative of a constant with respect to one datum, all others held.
+
+        It is 0 if an increase of the datum by one half has no effect.
+        """
         (datum,) = data[:1]
         if len(data) != 1 or not self.values.get(datum, sp.nan).is_Rational:
-            raise Undecided("a derivative of a higher order")
-        here, part = fraction(self.values[datum]), fmpq(1, 2500 if self.states else 10**6)
-        size = abs(here) if here != 0 else fmpq(1)
+            raise UndecidedError("a derivative of a higher order")
+        value, part = fraction(self.values[datum]), fmpq(1, 2500 if self.states else 10**6)
+        size = abs(value) if value != 0 else fmpq(1)
 
-        def moved(by: fmpq) -> arb:
-            return arb(self.with_datum(datum, here + by * size).constant(name))
+        def changed(by: fmpq) -> arb:
+            return arb(self.with_datum(datum, value + by * size).constant(name))
 
-        found = (moved(part) - moved(-part)) / (2 * part * size)
-        if found.contains(0):
-            far = moved(fmpq(1, 2))
+        slope = (changed(part) - changed(-part)) / (2 * part * size)
+        if slope.contains(0):
+            far = changed(fmpq(1, 2))
             change = far - arb(self.constant(name))
             if change.contains(0) and change.rad() < _UNMOVED * abs(far):
                 return ZERO
-        return found + arb(0, (abs(found) * 1000 * arb(part) ** 2 + arb(10) ** -30).upper())
+        return slope + arb(0, (abs(slope) * 1000 * arb(part) ** 2 + arb(10) ** -30).upper())
 
     def with_datum(self, datum: sp.Symbol, value: fmpq) -> Model:
         """Return the model with one datum changed."""
         changed = {**self.values, datum: sp.Rational(int(value.p), int(value.q))}
         return replace(self, values=changed)
 
-    def _late(self, expr: sp.Limit, far: int) -> Windows:
+    def _trend_values(self, expr: sp.Limit, far: int) -> Windows:
         """Return the values of an expression in windows towards the point of its limit."""
         key = (expr, far)
         if key not in self._windows:
@@ -284,21 +291,21 @@ class Model:
         return self._windows[key]
 
     def _ladder(self, point: sp.Expr, far: int) -> list[list[fmpq]]:
-        """Return times in windows: towards infinity as far as the fields are known."""
+        """Return windows of times; towards infinity they end where the fields are known."""
         if point != sp.oo:
             return [[at] for at in _towards(point)]
         if not self.states:
             return [self._window(10**k) for k in (4, 8, 16, 32, 64)]
         period = float(arb(self.period))
         if far == _FARTHEST and not self.motion.may_reach(period * far * 2):
-            raise Undecided("the fields are not known for long enough")
-        periods = min(self.motion.upto(period * far * 5) / period, 5 * far) / 4
+            raise UndecidedError("the fields are not known for long enough")
+        periods = min(self.motion.integrate_to(period * far * 5) / period, 5 * far) / 4
         steps = (4, 3, 2, 1, 0)
-        if periods > far / 2:  # the logarithms form a geometric sequence, at each place
+        if periods > far / 2:  # the logarithms of the times form a geometric sequence
             return [self._window(int(periods**power), power) for k in steps
                     for power in (0.5 ** (k / 2),)]  # fmt: skip
         if periods < 25 or far == _FARTHEST:
-            raise Undecided("the fields are not known for long enough")
+            raise UndecidedError("the fields are not known for long enough")
         return [self._window(int(periods / 2**k)) for k in steps]
 
     def _window(self, periods: int, power: float = 1.0) -> list[fmpq]:
@@ -314,27 +321,27 @@ def _towards(point: sp.Expr) -> list[fmpq]:
 
 
 def _slope(expr: sp.Expr) -> sp.Expr:
-    """Return the derivative in time, jumps apart."""
+    """Return the derivative in time between jumps."""
     steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}
     return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
 
 
 @lru_cache(maxsize=400)
-def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], loop: sp.Expr | None) -> Motion:
-    """Return the motion of a model that holds no more than its states rest on."""
-    model = Model(dict(values), loop)
+def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], implicit: sp.Expr | None) -> Motion:
+    """Return the motion of a model with no more values than its states rest on."""
+    model = Model(dict(values), implicit)
     with ctx.workprec(BITS):
         first = np.array([float(ball(model.field(f, ZERO)).mid()) for f in model.states])
         spacing = min(_spacings(model), default=0.0)
         rates = [float(ball(model.field(f, ZERO, 1)).mid()) for f in model.states]
     in_floats = model.system.rates(np.zeros(1), first[:, None])[:, 0]
     if not np.allclose(in_floats, rates, rtol=1e-9, atol=0):
-        raise Undecided("rates that are lost in rounding")
+        raise UndecidedError("rates below their rounding error")
     return Motion(model.system.rates, first, spacing, float(arb(model.period)) / 4)
 
 
 def _spacings(model: Model) -> Iterator[float]:
-    """Return the times between jumps of the fields of a model."""
+    """Yield the times between jumps of the fields of a model."""
     for jump in frozenset().union(*map(_jumps, model.values.values())):
         yield 1 / float(ball(compiled(sp.diff(jump.args[0], t))(Moment(model))).mid())
 

@@ -1,13 +1,13 @@
 """Motion: the fields that differential equations determine, by collocation.
 
 Overview
-    ``dx/dt = F(t, x)`` is integrated with polynomials through Chebyshev points: Picard's
-    iteration in each step, whose width follows from the last coefficients and from how fast it
-    converges.  Steps end where a load jumps.  The polynomials of states and rates are kept:
-    fields are known at every time in between, and what they gain from one time to another to as
-    many digits as the rates are.  Nothing is shared with `wear`, nor with the rules.
+    ``dx/dt = F(t, x)`` is integrated with polynomials through Chebyshev points, by Picard's
+    iteration in each step; the width of steps follows from the last coefficients and the speed of
+    convergence.  Steps end at the jumps of a load.  The polynomials of states and rates are kept,
+    so that fields are known at all times, and their increments to as many digits as the rates.
+    The module shares nothing with `wear` or with the rules.
 Key results
-    Motion    the states of one system, integrated as far as is asked for
+    Motion    the states of one system, integrated up to the requested times
 References
     Trefethen, Approximation Theory and Approximation Practice, chapters 2 and 4.
 """
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from .balls import Undecided
+from .balls import UndecidedError
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ _FIRST, MOST_STEPS = 80, 400
 
 @dataclass(eq=False)
 class Motion:
-    """States integrated from time zero on; ``spacing``: of the jumps of the load, 0 for none."""
+    """States from time zero on; ``spacing`` is the time between jumps of the load, 0 for none."""
 
     rates: Callable[[Array, Array], Array]
     first: Array
@@ -57,20 +57,20 @@ class Motion:
         return self._times[-1]
 
     def at(self, time: float) -> tuple[Array, Array]:
-        """Return the states at a time and their rounding errors; Undecided where they are not
-        known for so long."""
-        if self.upto(time) <= time:
-            raise Undecided("the fields are not known for so long")
+        """Return the states at a time and their rounding errors; UndecidedError if the time is
+        out of reach."""
+        if self.integrate_to(time) <= time:
+            raise UndecidedError("the fields are not known for so long")
         number = bisect_right(self._times, time) - 1
         begin, end = self._times[number : number + 2]
         place = (2 * time - begin - end) / (end - begin)
         piece = self._pieces[number][0]
         return np.asarray(chebyshev.chebval(place, piece)), 1e-15 * np.abs(piece).sum(axis=0)
 
-    def gained(self, begin: float, width: float) -> Array:
-        """Return what the states gain in a time of some width; Undecided as in ``at``."""
-        if self.upto(begin + width) <= begin + width:
-            raise Undecided("the fields are not known for so long")
+    def increment(self, begin: float, width: float) -> Array:
+        """Return the increments of the states in a time ``width``; UndecidedError as in ``at``."""
+        if self.integrate_to(begin + width) <= begin + width:
+            raise UndecidedError("the fields are not known for so long")
         gain = np.zeros_like(self.first)
         for number in range(bisect_right(self._times, begin) - 1, len(self._pieces)):
             low, high = self._times[number : number + 2]
@@ -82,14 +82,14 @@ class Motion:
             gain += half * chebyshev.chebval(places, self._pieces[number][1]) @ _GAUSS[1]
         return gain
 
-    def upto(self, time: float) -> float:
+    def integrate_to(self, time: float) -> float:
         """Integrate to a time, or as far as the steps allow; return the time reached."""
         while self.reached <= time and not self._stuck:
             self._advance()
         return self.reached
 
     def may_reach(self, time: float) -> bool:
-        """Return whether a time can be reached, as far as the first steps show."""
+        """Return whether the first steps are wide enough to expect that a time is reached."""
         while self.reached <= time and len(self._pieces) < _FIRST and not self._stuck:
             self._advance()
         return self.reached > time * _FIRST / MOST_STEPS * 1e-3
@@ -100,7 +100,7 @@ class Motion:
         while step > 1e-7 * max(1.0, begin) and len(self._pieces) < MOST_STEPS:
             if self.spacing:
                 step = min(step, self.spacing * (begin // self.spacing + 1) - begin)
-            piece, sweeps = self._solved(begin, step, first)
+            piece, sweeps = self._solve_step(begin, step, first)
             if piece is not None:
                 grown = 1.6 * step if sweeps <= _FEW else step
                 self.width = min(grown, 2 * max(1.0, begin))
@@ -110,11 +110,11 @@ class Motion:
             step /= 2
         self._stuck = True
 
-    def _solved(
+    def _solve_step(
         self, begin: float, step: float, first: Array
     ) -> tuple[tuple[Array, Array] | None, int]:
         """Return the coefficients of states and rates in a step, each of shape
-        ``(NODES, states)``, and the sweeps taken."""
+        ``(NODES, states)``, and the number of sweeps; None without convergence."""
         times = begin + step * (1 + _POINTS) / 2
         states = np.repeat(first[:, None], NODES, axis=1)
         for sweep in range(_SWEEPS):
@@ -127,6 +127,6 @@ class Motion:
             if change <= _SETTLED:
                 piece = _COEFFICIENTS @ states.T
                 rest = np.abs(piece[-2:]).max(axis=0) / size
-                kept = rest.max() <= _LEFT_OUT
-                return ((piece, _COEFFICIENTS @ rates.T) if kept else None), sweep
+                resolved = rest.max() <= _LEFT_OUT
+                return ((piece, _COEFFICIENTS @ rates.T) if resolved else None), sweep
         return None, _SWEEPS

@@ -1,10 +1,10 @@
-"""The equations of a model in floats, at many times all at once: its rates and its loop.
+"""The equations of a model in floats, at many times at once: its rates and its implicit field.
 
 Overview
-    Every formula is written in terms of time, states, the loop and data, and compiled by SymPy;
-    models that differ in data alone share what is compiled.
+    Every formula is written in terms of time, states, the implicit field and data, and compiled
+    by SymPy; models that differ only in data share the compiled functions.
 Key results
-    System    what motions are integrated with
+    System    rates and root, for the integration of motions
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.numpy import NumPyPrinter
 
 from ..symbols import t
-from .balls import Undecided
+from .balls import UndecidedError
 from .motion import Array
 
 
 class System:
-    """The differential equations of a model, and the equation ``y = G(y)`` of its loop.
+    """The differential equations of a model, and the equation ``y = G(y)`` of its implicit field.
 
-    ``moving`` are the time, the states and the loop, if there is one; ``rates`` are those of the
-    states, ``image`` is G, all in terms of what is moving and of data, which have a ``value``.
+    ``moving`` are the time, the states and the implicit field, if there is one; ``rates`` are
+    those of the states, ``image`` is G, all in terms of ``moving`` and data; ``value`` gives the
+    data.
     """
 
     def __init__(
@@ -38,17 +39,17 @@ class System:
         value: Callable[[sp.Expr], float],
     ) -> None:
         self._near, self._moving, self._value = np.zeros(1), tuple(moving), value
-        self._rates, self._image = self._coded(rates), self._coded(image)
-        self._loops = bool(image)
+        self._rates, self._image = self._compile(rates), self._compile(image)
+        self._implicit = bool(image)
 
-    def _coded(self, formulas: Sequence[sp.Expr]) -> Callable[..., list[Any]]:
-        """Return a function of arrays: of the times, the states, and the loop."""
+    def _compile(self, formulas: Sequence[sp.Expr]) -> Callable[..., list[Any]]:
+        """Return a function of arrays: of the times, the states, and the implicit field."""
         whole = sp.Tuple(*formulas)
         if whole.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
-            raise Undecided(f"{whole} has no number")
+            raise UndecidedError(f"{whole} has no numerical value")
         fields = whole.atoms(AppliedUndef)
         if any(field.args not in ((t,), (0,)) for field in fields):
-            raise Undecided("a rate that needs another time")
+            raise UndecidedError("a rate that needs another time")
         data = tuple(sorted((fields | whole.atoms(sp.Symbol)) - set(self._moving), key=str))
         values = list(map(self._value, data))
         function = _compiled(tuple(formulas), (*self._moving, *data))
@@ -56,26 +57,28 @@ class System:
 
     def rates(self, times: Array, states: Array) -> Array:
         """Return the rates of the states at times, shape ``(states, times)``."""
-        loop = (self.root(times, states),) if self._loops else ()
-        found = np.empty((len(states), len(times)))
+        implicit = (self.root(times, states),) if self._implicit else ()
+        rates = np.empty((len(states), len(times)))
         with np.errstate(all="ignore"):
-            for row, rate in zip(found, self._rates(times, *states, *loop), strict=True):
+            for row, rate in zip(rates, self._rates(times, *states, *implicit), strict=True):
                 row[:] = rate
-        return found
+        return rates
 
     def root(self, times: Array, states: Array) -> Array:
-        """Return the root of ``y - G(y)``, which increases, at times at which states are known:
-        by Newton's method, else by halves."""
+        """Return the root of ``y - G(y)``, an increasing function, at times with given states.
 
-        def rest(y: Array) -> Array:
+        Newton's method, or bisection if it does not converge; NaN without a root.
+        """
+
+        def residual(y: Array) -> Array:
             return np.asarray(y - self._image(times, *states, y)[0])
 
         y = self._near + 0.0 * times
         with np.errstate(all="ignore"):
             for _ in range(12):
                 small = 1e-7 * (1 + np.abs(y))
-                now = rest(y)
-                step = now * small / (rest(y + small) - now)
+                now = residual(y)
+                step = now * small / (residual(y + small) - now)
                 y = y - step
                 if np.all(np.abs(step) <= 1e-14 * (1 + np.abs(y))):
                     break
@@ -83,9 +86,9 @@ class System:
                 low, high = np.full_like(y, -(2.0**40)), np.full_like(y, 2.0**40)
                 for _ in range(100):
                     y = (low + high) / 2
-                    below = rest(y) < 0
+                    below = residual(y) < 0
                     low, high = np.where(below, y, low), np.where(below, high, y)
-                y = np.where(np.abs(rest(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
+                y = np.where(np.abs(residual(y)) < 1e-6 * (1 + np.abs(y)), y, np.nan)
         self._near = y
         return y
 
@@ -95,12 +98,12 @@ def _compiled(
     written: tuple[sp.Expr, ...], quantities: tuple[sp.Expr, ...]
 ) -> Callable[..., list[Any]]:
     names = {quantity: sp.Symbol(f"q_{i}") for i, quantity in enumerate(quantities)}
-    printer = _Printer(names)
+    printer = _ArgumentPrinter(names)
     return sp.lambdify(list(names.values()), list(written), "numpy", printer=printer, cse=True)
 
 
-class _Printer(NumPyPrinter):
-    """Quantities by the names of arguments, so that no formula is built anew with these."""
+class _ArgumentPrinter(NumPyPrinter):
+    """NumPy's printer with arguments in place of quantities, so that no formula is rebuilt."""
 
     def __init__(self, names: Mapping[sp.Expr, sp.Symbol]) -> None:
         super().__init__({"fully_qualified_modules": False})

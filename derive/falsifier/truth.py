@@ -1,8 +1,8 @@
 """Truth: whether a relation holds in a model for all time.
 
 Overview
-    A relation is meant for all times, as hypotheses and claims are.  It is judged at the model's
-    times.  What has no value (0/0) does not hold.
+    Hypotheses and claims are about all times.  A relation is evaluated at the model's times; it
+    does not hold if one of its sides has no value (0/0).
 Key results
     truth(relation, model)      True, False or None (no verdict), and where
 """
@@ -16,18 +16,20 @@ from flint import arb
 from sympy.core.relational import Relational
 
 from ..symbols import t
-from .balls import NoValue, Number, Undefined
+from .balls import NoValueError, Number, UndefinedError
 from .models import Model
-from .values import Moment, compiled, judged
+from .values import Moment, compiled, holds_at
 
 EARLY = 5
-"""So many of a model's times are within three periods."""
+"""Number of a model's times within three periods."""
 
 
 @dataclass(frozen=True)
 class Truth:
-    """Whether a relation holds in a model; None where no time decides.  ``where``: a witness, or
-    what has no value in the model."""
+    """Whether a relation holds in a model, None if undecided.
+
+    ``where`` is a time and values that refute it, or the expression without a value.
+    """
 
     holds: bool | None
     where: str = ""
@@ -41,12 +43,12 @@ def truth(relation: sp.Basic, model: Model) -> Truth:
         moment = Moment(model, time)
         when = "" if timeless else f"at {t} = {_shown(time)}: "
         try:
-            if not judged(relation, moment):
+            if not holds_at(relation, moment):
                 return Truth(False, when + _sides(relation, moment))
             decided = True
-        except Undefined as reason:
+        except UndefinedError as reason:
             return Truth(False, f"{when}{reason}")
-        except NoValue as reason:
+        except NoValueError as reason:
             if number < EARLY:
                 return Truth(None, str(reason))
         except (ArithmeticError, ValueError, RecursionError):

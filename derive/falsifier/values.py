@@ -1,13 +1,13 @@
-"""Values: of expressions, and the truth of relations, at a time in a model.
+"""Values of expressions, and truth of relations, at a time in a model.
 
 Overview
     An expression is compiled, once, to a function of a moment (a model and a time).  Derivatives
-    in time are those of the fields' own formulas.  Equations are compared to 20 digits and more,
-    inequalities wherever the balls of the two sides part (with four times the precision if they
-    do not at first).  A limit is judged by its trend.
+    in time are those of the fields' formulas.  Equations are compared to 20 digits and more,
+    inequalities are decided if the balls of the two sides do not overlap (with four times the
+    precision if they do at first).  A limit is judged by its trend.
 Key results
-    compiled(expr)             the function of a moment
-    judged(relation, moment)   whether it holds; Undecided, Undefined are raised
+    compiled(expr)               the function of a moment
+    holds_at(relation, moment)   whether it holds; raises UndecidedError and UndefinedError
 """
 
 from __future__ import annotations
@@ -35,20 +35,20 @@ from .balls import (
     NOTHING,
     ZERO,
     Number,
-    Undecided,
-    Undefined,
+    UndecidedError,
+    UndefinedError,
     ball,
     first_zero,
     fraction,
     integral,
 )
-from .expansion import Array, Expanded, at_phase, coefficients
+from .expansion import Array, ExpansionCoefficient, at_phase, coefficients
 from .trend import diverges, tends_to
 
 _ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -2
-"""Relative widths of balls: due to rounding alone; up to which those that overlap are equal."""
+"""Relative widths of balls: from rounding alone; below which overlapping balls count as equal."""
 _SMALL = arb(10) ** -9
-"""Width up to which balls that overlap are equal, data being about 1: both sides may vanish."""
+"""Absolute width below which overlapping balls count as equal, since both sides may vanish."""
 
 
 _COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
@@ -63,7 +63,7 @@ class Moment:
     bound: tuple[tuple[sp.Symbol, Number], ...] = ()
 
     def at(self, name: sp.Symbol, value: Number) -> Moment:
-        """Return the moment at which a variable has a value."""
+        """Return the moment with a value of a variable."""
         if name == t:
             return replace(self, time=value)
         return replace(self, bound=((name, value), *self.bound))
@@ -81,7 +81,7 @@ Value = Callable[[Moment], Number]
 
 @cache
 def compiled(expr: sp.Basic) -> Value:
-    """Return the function that gives an expression its value at a moment."""
+    """Return the function from a moment to the value of an expression."""
     if expr == t:
         return lambda moment: moment.time
     if expr in CONSTANTS:
@@ -94,14 +94,14 @@ def compiled(expr: sp.Basic) -> Value:
         if isinstance(expr, kind):
             return build(expr)
     if type(expr) not in FUNCTIONS:
-        raise Undecided(f"{type(expr).__name__} has no number")
+        raise UndecidedError(f"{type(expr).__name__} has no numerical value")
     function = FUNCTIONS[type(expr)]
     arguments = [compiled(a) for a in expr.args]
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
 def field_of(expr: AppliedUndef) -> sp.Expr:
-    """Return a field at time t, always the same object: it is looked up often."""
+    """Return a field at time t, always the same object for fast lookups."""
     return _at_time_t(expr.func)
 
 
@@ -116,7 +116,7 @@ def _field(expr: AppliedUndef, order: int = 0) -> Value:
 
 
 def _sum(expr: sp.Add) -> Value:
-    """Return a sum, in which what a field gains from one time to another loses no digits."""
+    """Return a sum, in which the increment of a field between two times loses no digits."""
     fields = [(a, -b) for a in expr.args for b in expr.args
               if isinstance(a, AppliedUndef) and isinstance(-b, AppliedUndef)
               and a.func == (-b).func]  # fmt: skip
@@ -126,7 +126,7 @@ def _sum(expr: sp.Add) -> Value:
     later, earlier = fields[0]
     rest, field = compiled(expr - later + earlier), field_of(later)
     begin, end = compiled(earlier.args[0]), compiled(later.args[0])
-    return lambda moment: rest(moment) + moment.model.gain(field, begin(moment), end(moment))
+    return lambda moment: rest(moment) + moment.model.increment(field, begin(moment), end(moment))
 
 
 def _derivative(expr: sp.Derivative) -> Value:
@@ -137,12 +137,12 @@ def _derivative(expr: sp.Derivative) -> Value:
         return _field(inside, len(data))
     done = expr.doit()
     if done == expr:
-        raise Undecided(f"{expr} is no derivative in time")
+        raise UndecidedError(f"{expr} is no derivative in time")
     return compiled(done)
 
 
 def _at(expr: sp.Subs) -> Value:
-    """An expression at another value of its variable: a field at time zero, one period later."""
+    """Return an expression at another value of its variable, such as a field at time zero."""
     (name,), (point,) = expr.variables, expr.point
     inside, at = compiled(expr.expr), compiled(point)
     return lambda moment: inside(moment.at(name, at(moment)))
@@ -169,16 +169,16 @@ def _along(expr: sp.Expr, name: sp.Symbol) -> Callable[[Moment], Callable[[Numbe
     return lambda moment: lambda x: ball(value(moment.at(name, x)))
 
 
-def _expanded(expr: Expanded) -> Value:
+def _expanded(expr: ExpansionCoefficient) -> Value:
     number, order = map(int, expr.args[:2])
     law, at = expr.args[2:6], compiled(expr.args[6])
 
     def value(moment: Moment) -> arb:
         drift, waves = _coefficients(moment.model, number, *law)
         phase = float(ball(at(moment)).mid()) % 1
-        found = drift[number] if order < 0 else at_phase(waves[number], phase, order)
+        term = drift[number] if order < 0 else at_phase(waves[number], phase, order)
         size = abs(drift[number]) + abs(waves[number]).max() * (number * tau) ** max(order, 0)
-        return arb(float(found), 1e-9 * float(size))
+        return arb(float(term), 1e-9 * float(size))
 
     return value
 
@@ -200,9 +200,9 @@ def _cases(expr: sp.Piecewise) -> Value:
 
     def value(moment: Moment) -> Number:
         for branch, condition in values:
-            if judged(condition, moment):
+            if holds_at(condition, moment):
                 return branch(moment)
-        raise Undefined("no case of a piecewise expression")
+        raise UndefinedError("no case of a piecewise expression")
 
     return value
 
@@ -217,54 +217,54 @@ _SPECIAL: tuple[tuple[type, Callable[..., Value]], ...] = (
     (sp.Integral, _integral),
     (sp.Piecewise, _cases),
     (FirstZero, _first_zero),
-    (Expanded, _expanded),
+    (ExpansionCoefficient, _expanded),
 )
 
 
-def judged(relation: sp.Basic, moment: Moment) -> bool:
+def holds_at(relation: sp.Basic, moment: Moment) -> bool:
     """Return whether a relation holds at a moment."""
     if relation in (sp.true, sp.false):
         return bool(relation)
     if isinstance(relation, BooleanFunction):
         return _composed(relation, moment)
     if not isinstance(relation, Relational):
-        raise Undecided(f"{relation} is no relation")
+        raise UndecidedError(f"{relation} is no relation")
     for bits in (BITS, 4 * BITS):
         final = bits > BITS
         with ctx.workprec(bits):
             try:
                 outcome = _compared(relation, moment, final)
-            except Undecided:
+            except UndecidedError:
                 if final:
                     raise
                 continue
         if outcome is not None:
             return outcome
-    raise Undecided("the two sides cannot be distinguished")
+    raise UndecidedError("the two sides cannot be distinguished")
 
 
 def _composed(relation: BooleanFunction, moment: Moment) -> bool:
     parts = relation.args
     if isinstance(relation, Not):
-        return not judged(parts[0], moment)
+        return not holds_at(parts[0], moment)
     if isinstance(relation, Implies):
-        return not judged(parts[0], moment) or judged(parts[1], moment)
+        return not holds_at(parts[0], moment) or holds_at(parts[1], moment)
     if isinstance(relation, Equivalent):
-        return len({judged(part, moment) for part in parts}) == 1
+        return len({holds_at(part, moment) for part in parts}) == 1
     if isinstance(relation, (And, Or)):
         return _joined(relation, moment)
-    raise Undecided(f"{type(relation).__name__} has no truth")
+    raise UndecidedError(f"{type(relation).__name__} has no truth")
 
 
 def _joined(relation: BooleanFunction, moment: Moment) -> bool:
-    """Return the truth of an 'and' or an 'or', though parts of it may be undecided."""
+    """Return the truth of an 'and' or an 'or', of which some parts may be undecided."""
     decisive, unknown = isinstance(relation, Or), None
     for part in relation.args:
         try:
-            if judged(part, moment) == decisive:
+            if holds_at(part, moment) == decisive:
                 return decisive
-        except Undecided as found:
-            unknown = found
+        except UndecidedError as reason:
+            unknown = reason
     if unknown is not None:
         raise unknown
     return not decisive
@@ -276,7 +276,7 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
     if equal and isinstance(right, sp.Limit):
         left, right = right, left
     if equal and right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
-        zeros = [judged(sp.Eq(factor, 0, evaluate=False), moment) for factor in left.args]
+        zeros = [holds_at(sp.Eq(factor, 0, evaluate=False), moment) for factor in left.args]
         return any(zeros) == isinstance(relation, sp.Eq)
     if left.is_infinite or right.is_infinite or isinstance(left, sp.Limit):
         outcome = _at_infinity(relation, left, right, moment)
@@ -289,7 +289,7 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
     gap = ball(gap)
     size = max(abs(ball(term)).upper() for term in chain(*terms))
     if not final and gap.rad() <= _ROUNDING * size:
-        return None  # perhaps more digits part them
+        return None  # more digits may separate them
     if isinstance(relation, (sp.Eq, sp.Ge, sp.Le)) and gap.rad() <= max(_AGREE * size, _SMALL):
         return True
     if isinstance(relation, sp.Ne) and gap.rad() <= max(_AGREE * size, NOTHING):
@@ -304,7 +304,7 @@ def _sign(gap: fmpq | arb) -> int:
 def _at_infinity(
     relation: Relational, left: sp.Expr, right: sp.Expr, moment: Moment
 ) -> bool | None:
-    """Return the truth of a claim on a limit; None where it is a comparison of numbers."""
+    """Return the truth of a claim on a limit; None if numbers are to be compared."""
     equal = isinstance(relation, (sp.Eq, sp.Ne))
     if not equal:
         return True if right == sp.oo and isinstance(relation, (sp.Lt, sp.Le)) else None
@@ -312,12 +312,12 @@ def _at_infinity(
         return None
     if right.is_infinite:
         sign = 1 if right == sp.oo else -1
-        outcome = moment.model.confirmed(left, lambda found: diverges(found, sign))
+        outcome = moment.model.judge_limit(left, lambda windows: diverges(windows, sign))
     else:
         if t in right.free_symbols:
-            raise Undefined("a limit in time that still depends on time")
+            raise UndefinedError("a limit in time that still depends on time")
         value = ball(compiled(right)(moment))
-        outcome = moment.model.confirmed(left, lambda found: tends_to(found, value))
+        outcome = moment.model.judge_limit(left, lambda windows: tends_to(windows, value))
     if outcome is None:
-        raise Undecided("the trend is not clear")
+        raise UndecidedError("the trend is not clear")
     return outcome == isinstance(relation, sp.Eq)

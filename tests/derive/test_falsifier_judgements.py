@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
-from derive.falsifier.judgements import tried, without
+from derive.falsifier.judgements import counterexample_without, try_on_models
 from derive.reasons import outdated, table
 from derive.rules.drift import LeadingTerm
 from derive.symbols import symbols
@@ -34,7 +34,7 @@ from tests.derive.judgements import eq, gt
 )
 def test_models_agree_with_an_equation(identifier: str):
     for statement in catalogue.equation(identifier).statements:
-        answer = tried(statement)
+        answer = try_on_models(statement)
         assert answer.passed, str(answer)
         assert answer.decided
 
@@ -42,7 +42,7 @@ def test_models_agree_with_an_equation(identifier: str):
 def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_it():
     G, q, sigma_c = symbols("G q sigma_c")
     leading = LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))
-    answer = tried(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0, False)))
+    answer = try_on_models(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0, False)))
     assert answer.passed, str(answer)
     assert answer.decided
 
@@ -50,7 +50,7 @@ def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_
 def test_a_condition_of_the_threshold_is_needed():
     (statement,) = catalogue.equation("threshold").statements
     (grows,) = (h for h in statement.conditions if h.typed == "f_c > 0")
-    assert "f_c = 0" in str(without(statement, grows))
+    assert "f_c = 0" in str(counterexample_without(statement, grows))
 
 
 def test_the_table_of_reasons_is_of_these_equations():

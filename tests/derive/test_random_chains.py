@@ -13,7 +13,7 @@ import sympy as sp
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from derive.falsifier.judgements import tried
+from derive.falsifier.judgements import try_on_models
 from derive.hypotheses import CONSTANT, PERIODIC, Hypothesis, Kind
 from derive.kernel import Judgement, Rule, RuleError, infer
 from derive.rules import algebra, calculus, data, drift, growth, inequalities, limits, solutions
@@ -149,5 +149,5 @@ def applied(rule: Rule, *premises: Judgement) -> Judgement | None:
 @given(drawn_chains)
 def test_no_model_breaks_what_rules_conclude(chain: Chain) -> None:
     for judgement in concluded(chain):
-        answer = tried(judgement)
+        answer = try_on_models(judgement)
         assert answer.passed, (judgement.hypotheses, judgement.relation, str(answer))
