@@ -1,15 +1,15 @@
 """A contact law that is given as text: read, never executed, proved and made into sources.
 
 Overview
-    The text is parsed by Python's own parser and read from the few nodes that the grammar
-    allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  That phi is positive and falls is proved,
-    its inflection is found and, as far as may be, proved to be the only one, and of equal forms
-    that which loses fewest digits is written out.
+    The text is parsed by Python's own parser and translated from the few nodes that the grammar
+    allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  phi is proved to be positive and
+    decreasing; its inflection is found and, if possible, proved to be the only one; of several
+    equal forms the one that loses fewest digits is generated.
 Key results
-    normal      the text in one spelling, or what is wrong with it
+    normal      the text in one spelling
     own_law     the contact law
-    turns_once  whether its curvature is proved to change its sign once at most
-    file_of     the modules of its variants, and what to know of it
+    turns_once  whether its curvature is proved to change its sign at most once
+    file_of     the modules of its variants, and a summary of its properties
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ LONGEST = 500  # characters
 LARGEST = 10**6  # numbers in the text
 HIGHEST = 20  # powers
 SECONDS = 30.0  # of CPU time for each symbolic step
-RANGE = (-5.0, 1e4)  # of h/sigma: where digits are counted
-GOOD = 1e-14  # relative error: a form with less needs no other
-TINIEST = 1e-280  # values below are as good as zero
-DIGITS = 320  # that remain of a value so small where all others cancel
-GRID = range(-120, 121)  # quarters of h/sigma: where the curvature is looked at
+RANGE = (-5.0, 1e4)  # of h/sigma, in which the rounding error is measured
+GOOD = 1e-14  # relative error below which no other form is tried
+TINIEST = 1e-280  # smaller values are not compared
+DIGITS = 320  # working precision, enough for such values after cancellation
+GRID = range(-120, 121)  # quarters of h/sigma at which the curvature is checked
 FUNCTIONS = ("exp", "tanh", "sqrt")
 GRAMMAR = "use numbers, r, + - * / ^, parentheses, exp, tanh and sqrt"
 
@@ -50,7 +50,7 @@ def normal(text: str) -> str:
     Raises
     ------
     UsageError
-        naming what the grammar does not have.
+        naming the part outside the grammar.
     """
     if len(text) > LONGEST:
         raise UsageError(f"phi has {len(text)} characters; give at most {LONGEST}")
@@ -85,7 +85,7 @@ def _check(node: ast.AST) -> None:
 
 
 def _half_integer(node: ast.expr) -> float:
-    """Return a power: a whole number or half of one, perhaps negative."""
+    """Return an exponent: a multiple of one half."""
     match node:
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return -_half_integer(operand)
@@ -100,13 +100,13 @@ def _half_integer(node: ast.expr) -> float:
 
 @cache
 def own_law(text: str) -> tuple[ContactLaw, float]:
-    """Return the contact law of a text, and the relative error of its value and slope by rounding.
+    """Return the contact law of a text, and the relative rounding error of its value and slope.
 
     Raises
     ------
     UsageError
-        if the law cannot be read, is not proved to be positive and falling, or does not turn from
-        concave to convex once at most.
+        if the law cannot be read, is not proved to be positive and decreasing, or has more than
+        one turn from concave to convex.
     """
     import sympy as sp
 
@@ -135,7 +135,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
 
 
 def _inflection(phi: sp.Expr) -> sp.Expr:
-    """Return where phi turns from concave to convex; minus infinity if it is convex everywhere."""
+    """Return the r at which phi turns from concave to convex, -oo if it is convex everywhere."""
     import mpmath
     import sympy as sp
 
@@ -144,8 +144,8 @@ def _inflection(phi: sp.Expr) -> sp.Expr:
     curvature = sp.diff(phi, r, 2)
     value = sp.lambdify(r, curvature, "mpmath")
     with mpmath.workdps(50):
-        found = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
-        signs = [(x, mpmath.sign(y)) for x, y in found if y != 0]
+        values = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
+        signs = [(x, mpmath.sign(y)) for x, y in values if y != 0]
         turns = [(a, b) for (a, s), (b, t) in pairwise(signs) if s != t]
         if not turns and signs and signs[0][1] > 0:
             return sp.S.NegativeInfinity
@@ -158,15 +158,15 @@ def _inflection(phi: sp.Expr) -> sp.Expr:
 
 
 def turns_once(law: ContactLaw) -> bool:
-    """Return whether it is proved that the curvature changes its sign at the inflection alone.
+    """Return whether it is proved that the curvature changes its sign only at the inflection.
 
-    A rational function of an exponential changes it at roots of a polynomial, which are counted
-    (Sturm); of others both signs are decided.
+    A rational function of an exponential changes its sign at roots of a polynomial, which are
+    counted by Sturm's theorem; for other curvatures both signs are decided.
 
     Raises
     ------
     UsageError
-        if it changes it elsewhere too.
+        if it changes its sign elsewhere too.
     """
     import sympy as sp
 
@@ -174,45 +174,45 @@ def turns_once(law: ContactLaw) -> bool:
     from .reals import holds
 
     place, curvature = law.inflection, sp.diff(law.phi, r, 2)
-    found = _of_exponentials(curvature)
-    if found and found[0].free_symbols == {found[1]}:
-        numerator = sp.fraction(sp.factor(found[0]))[0]
-        odd = [sp.Poly(f, found[1]) for f, n in sp.factor_list(numerator)[1] if n % 2]
+    quotient, step, _ = _of_exponentials(curvature) or (curvature, None, None)
+    if quotient.free_symbols == {step}:
+        numerator = sp.fraction(sp.factor(quotient))[0]
+        odd = [sp.Poly(f, step) for f, n in sp.factor_list(numerator)[1] if n % 2]
         if all(f.domain.is_ZZ or f.domain.is_QQ for f in odd):
             turns = sum(f.count_roots(0) - (f.nth(0) == 0) for f in odd)
             if turns != place.is_finite:
                 raise UsageError(f"phi turns between concave and convex {turns} times, not once")
             return True
-    away = sp.Dummy(nonnegative=True)
+    distance = sp.Dummy(nonnegative=True)
     if not place.is_finite:
         return holds(sp.Ge(curvature, 0))
-    above, below = (curvature.subs(r, place + side * away) for side in (1, -1))
+    above, below = (curvature.subs(r, place + side * distance) for side in (1, -1))
     return holds(sp.Ge(above, 0)) and holds(sp.Le(below, 0))
 
 
 def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
-    """Return the form of an expression that loses fewest digits, and its relative error.
+    """Return the relative rounding error of the most accurate form of an expression, and the form.
 
-    A quotient in exponentials that fall neither overflows nor cancels.
+    A quotient in decreasing exponentials neither overflows nor cancels.
     """
     import sympy as sp
 
     from .zero import is_zero
 
-    found = [(_loss(expression, expression), expression)]
+    candidates = [(_loss(expression, expression), expression)]
     forms = [1 / sp.radsimp(1 / expression)]
     if powers := _of_exponentials(expression):
-        quotient, step, fall = powers
-        forms.insert(0, sp.factor(quotient).subs(step, sp.exp(fall)))
+        quotient, step, exponent = powers
+        forms.insert(0, sp.factor(quotient).subs(step, sp.exp(exponent)))
     for form in forms:
-        if found[0][0] > GOOD and is_zero((form - expression).rewrite(sp.exp)):
-            found.append((_loss(form, expression), form))
-    return min(found, key=lambda each: each[0])
+        if candidates[0][0] > GOOD and is_zero((form - expression).rewrite(sp.exp)):
+            candidates.append((_loss(form, expression), form))
+    return min(candidates, key=lambda candidate: candidate[0])
 
 
 def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] | None:
-    """Return an expression as a rational function of one exponential that falls, the symbol of
-    that, and its exponent; None where it is none."""
+    """Return an expression as a rational function of one decreasing exponential, its symbol and
+    exponent; None for other expressions."""
     import sympy as sp
 
     from .laws import r
@@ -221,12 +221,12 @@ def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] 
     exponents = sorted((e.args[0] for e in plain.atoms(sp.exp)), key=sp.count_ops)
     if not exponents or not sp.diff(exponents[0], r).is_number:
         return None
-    fall = exponents[0] if sp.diff(exponents[0], r) < 0 else -exponents[0]
-    powers = {each: sp.cancel(each / fall) for each in exponents}
+    unit = exponents[0] if sp.diff(exponents[0], r) < 0 else -exponents[0]
+    powers = {exponent: sp.cancel(exponent / unit) for exponent in exponents}
     if not all(power.is_Integer for power in powers.values()):
         return None
     step = sp.Dummy(positive=True)
-    return plain.subs({sp.exp(each): step**n for each, n in powers.items()}), step, fall
+    return plain.subs({sp.exp(e): step**n for e, n in powers.items()}), step, unit
 
 
 def _loss(form: sp.Expr, exact: sp.Expr) -> float:
@@ -246,19 +246,19 @@ def _loss(form: sp.Expr, exact: sp.Expr) -> float:
     worst = 0.0
     with mpmath.workdps(DIGITS):
         value = sp.lambdify(r, exact, "mpmath")
-        for place, found in zip(at.tolist(), rounded.tolist(), strict=True):
+        for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True):
             true = value(mpmath.mpf(place))
             if abs(true) < TINIEST:
-                break  # it falls
-            worst = max(worst, float(abs(found / true - 1)))
+                break  # all further values are smaller
+            worst = max(worst, float(abs(approximate / true - 1)))
     return worst
 
 
 def file_of(text: str, name: str) -> str:
     """Return the text of a file of a law by its name.
 
-    `about.json` has the law, its inflection and the relative error by rounding, `law.py` the law
-    and its relative slope; a variant without loss of contact is in a module of its name.
+    `about.json` has the law, its inflection and its relative rounding error, `law.py` the law and
+    its relative slope; a variant without loss of contact is in a module of its name.
 
     Raises
     ------
@@ -281,5 +281,5 @@ def file_of(text: str, name: str) -> str:
     if name == "law.py":
         return contact_law.module(law)
     variants = [Variant(law, compliant, pin) for compliant in (False, True) for pin in Pin]
-    chosen = next(each for each in variants if f"{each.module}.py" == name)
+    chosen = next(variant for variant in variants if f"{variant.module}.py" == name)
     return source(program(chosen), "numpy")
