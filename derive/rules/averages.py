@@ -3,12 +3,11 @@
 Overview
     With sigma = sigma_c0 + f_c u_c the rate is a series in 1/sigma with periodic coefficients.
     Its formal solution is ``sigma = m + w_1/m + w_2/m^2 + ...``, ``dm/dtau = rho (1 + c_1/m +
-    ...)``.  That a name is one of its coefficients is a premise, by definition; that m and s_0
-    belong to it, too.
+    ...)``.  Premises define the names of its coefficients, and m and s_0.
 Key results
-    term_of              what c_n and w_n are by definition, for a pressure
-    OrderEquation        what the terms with 1/m^n say of c_n and w_n
-    Averaging            c_n, the mean of that over a cycle, and w_n, the integral of the rest
+    term_of              the definition of c_n or w_n, for a pressure
+    OrderEquation        the equation of c_n and w_n from the terms with 1/m^n
+    Averaging            c_n, the mean of its known terms, and w_n, the integral of the rest
     SlowTime             tau as a function of m, from dm/dtau
 References
     Sanders, Verhulst, Murdock, Averaging Methods in Nonlinear Dynamical Systems, 2007.
@@ -51,14 +50,14 @@ def powers(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
 
     With sigma = sigma_c0 + f_c u_c and b_0 = sigma_c0/f_c - h_0 the ratio h/sigma is a
     polynomial in 1/sigma whose first coefficient is 1/f_c.  RuleError unless F is smooth at
-    infinity and tends to what is not zero and does not vary.
+    infinity and tends to a constant that is not zero.
     """
     at_large = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, h_0: sigma_c0 / f_c - b_0})
     return _coefficients(at_large, order, frozenset([f_c > 0]))
 
 
 def _coefficients(law: sp.Expr, order: int, facts: frozenset[sp.Basic]) -> tuple[sp.Expr, ...]:
-    """Return the coefficients of a law in powers of one over the roughness."""
+    """Return the coefficients of a law in powers of 1/roughness."""
     small, near = sp.Dummy("1/sigma", positive=True), sp.Dummy(real=True)
     inverse = law.subs(ROUGHNESS, 1 / small)
     at_large = inverse.replace(
@@ -75,15 +74,17 @@ def _coefficients(law: sp.Expr, order: int, facts: frozenset[sp.Basic]) -> tuple
 
 
 def require_expansion(term: Term, *premises: Judgement) -> None:
-    """Raise RuleError unless a formal solution has this coefficient: the law has the period 1,
-    is smooth at infinity and tends to what is not zero and does not vary."""
+    """Raise RuleError unless a formal solution has this coefficient.
+
+    The law must have the period 1, be smooth at infinity and tend to a constant other than zero.
+    """
     order, law, *variables = term.args
-    turning = law.subs(sp.sin(2 * sp.pi * tau), sp.Dummy(real=True))
-    if variables != [ROUGHNESS, tau, rho] or functions(law) or clocks(turning):
+    steady = law.subs(sp.sin(2 * sp.pi * tau), sp.Dummy(real=True))
+    if variables != [ROUGHNESS, tau, rho] or functions(law) or clocks(steady):
         raise RuleError(f"missing premise: {law} has the period 1")
     if not (order.is_Integer and order.is_positive) or (order > 1 and law.has(LAW)):
         raise RuleError(f"missing premise: {law} has a coefficient of order {order}")
-    _coefficients(turning, int(order), facts_of(premises))
+    _coefficients(steady, int(order), facts_of(premises))
 
 
 def _in_lowest_terms(function: sp.Expr) -> sp.Expr:
@@ -93,7 +94,7 @@ def _in_lowest_terms(function: sp.Expr) -> sp.Expr:
 def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
     """Return c_n (``Drift``) or w_n (``Oscillation``) for a pressure ``F(u_c, U_a)``.
 
-    The wear is that of the roughness, and the load is the sine, at the phase tau = t/T.
+    The wear is written in terms of the roughness, and the load is the sine at tau = t/T.
     """
     load = SINE.relation.rhs.subs(t, T * tau)
     law = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, LOAD: load})
@@ -133,7 +134,7 @@ class OrderEquation(Rule):
 
 
 def _named(term: Term, *premises: Judgement) -> sp.Expr:
-    """Return the name of a coefficient, which one of the premises gives it."""
+    """Return the name of a coefficient, which one of the premises defines."""
     for claim in (premise.claim for premise in premises):
         if isinstance(claim, Equality) and claim.rhs == term:
             return claim.lhs
@@ -166,8 +167,8 @@ class Averaging(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, (name, value) = equality(premises[0]), self.claim.args
-        said = {h.relation for h in premises[0].hypotheses}
-        waves = {r.lhs: sp.S.Zero for r in said if isinstance(getattr(r, "rhs", 0), Oscillation)}
+        known = {h.relation for h in premises[0].hypotheses}
+        waves = {r.lhs: sp.S.Zero for r in known if isinstance(getattr(r, "rhs", 0), Oscillation)}
         of_wave = isinstance(law.lhs, sp.Derivative) and law.lhs.variables == (tau,)
         whole = law.lhs.args[0] if of_wave else law.lhs
         if whole not in waves or value.has(*waves):
@@ -197,12 +198,12 @@ class Averaging(Rule):
 def _periodic(expr: sp.Expr) -> bool:
     """Return whether an expression is a polynomial in sines and cosines of 2 pi n tau."""
     terms = (term.as_coeff_exponent(z) for term in sp.Add.make_args(turning(expr, tau)))
-    still = all(power.is_Integer and not factor.has(z, tau) for factor, power in terms)
-    return still and not functions(expr) and clocks(expr) <= {tau}
+    polynomial = all(power.is_Integer and not factor.has(z, tau) for factor, power in terms)
+    return polynomial and not functions(expr) and clocks(expr) <= {tau}
 
 
 def _definitions(law: sp.Expr) -> set[sp.Equality]:
-    """Return that c_1 to c_4 are the drifts of the expansion for a law."""
+    """Return the definitions of c_1 to c_4 as the drifts of the expansion for a law."""
     return {
         sp.Eq(symbol(f"c_{n}"), Drift(sp.Integer(n), law, ROUGHNESS, tau, rho), evaluate=False)
         for n in range(1, ORDER + 1)
@@ -213,9 +214,9 @@ def _definitions(law: sp.Expr) -> set[sp.Equality]:
 class SlowTime(Rule):
     """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
 
-    s_0 is the constant of integration, so F is made of powers of m and ln(m/rho) alone.
-    The premises define c_1 to c_4, all of one pressure, or rest on these definitions; the others
-    say what m and s_0 are.
+    s_0 is the constant of integration, so F consists of powers of m and ln(m/rho) alone.
+    The premises define c_1 to c_4, all of one pressure, or rest on these definitions; another
+    one defines m and s_0.
     """
 
     claim: sp.Equality
@@ -223,10 +224,10 @@ class SlowTime(Rule):
     source = "termwise integration of an asymptotic series"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        said = {h.relation for premise in premises for h in premise.hypotheses}
+        known = {h.relation for premise in premises for h in premise.hypotheses}
         drifts = [symbol(f"c_{n}") for n in range(1, ORDER + 1)]
-        laws = {term.args[1] for relation in said for term in relation.atoms(Drift)}
-        if not any(_definitions(law) <= said for law in laws):
+        laws = {term.args[1] for relation in known for term in relation.atoms(Drift)}
+        if not any(_definitions(law) <= known for law in laws):
             names = listed(map(str, drifts))
             raise RuleError(f"missing premise: {names} are the drifts of the expansion")
         require_hypothesis(EXPANSION, *premises)

@@ -30,7 +30,7 @@ _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
 
 
 def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
-    """Refuse unless an expression has data alone, of which one may vary with the others fixed."""
+    """Refuse an expression unless it has data alone, of which one may vary, the others fixed."""
     if functions(expr) or any(s.name not in DATA for s in expr.free_symbols):
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
@@ -42,26 +42,28 @@ def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
         if kind in (Kind.DEFINITION, Kind.INITIAL, Kind.MODEL) and relation.atoms(AppliedUndef):
             continue
         if functions(relation):
-            kept = not _leaves_data_free(relation)
+            fixed = not _leaves_data_free(relation)
         else:
             about = parameter.name in _data_of(relation, definitions)
-            kept = about and kind is not Kind.DEFINITION and not open_set(relation)
-        if kept:
+            fixed = about and kind is not Kind.DEFINITION and not open_set(relation)
+        if fixed:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
 
 def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> set[str]:
-    """Return the data that a relation is about, also by names that are defined by them."""
+    """Return the data in a relation, directly or by defined names."""
     about = {name for name, _ in names(relation)}
     for _ in definitions:
-        meant = (names(known) for known in definitions if about & defined_by(known))
-        about = about.union(name for found in meant for name, _ in found)
+        defining = (names(known) for known in definitions if about & defined_by(known))
+        about = about.union(name for group in defining for name, _ in group)
     return about & DATA
 
 
 def _leaves_data_free(relation: sp.Basic) -> bool:
-    """Return whether fields that satisfy a relation exist for any data: it is a contact law, a
-    bound of the load, or a setting."""
+    """Return whether fields that satisfy a relation exist for all data.
+
+    So it is for a contact law, a bound of the load, and a setting.
+    """
     if isinstance(relation, sp.LessThan):
         positive = holds(sp.Gt(relation.rhs, 0)) and not [*undefined(relation.rhs)]
         return relation.lhs == sp.Abs(LOAD) and positive

@@ -1,4 +1,4 @@
-"""The drift of wear: how the rate approaches its limit, and what that adds to the wear.
+"""The drift of wear: the approach of the rate to its limit, and its integral.
 
 Key results
     first_order          u (x - l) - a -> 0 for du/dt = F(x) gives t (du/dt - R) - F'(l) a/R -> 0
@@ -36,12 +36,12 @@ from .reading import (
 
 N, U, U_mean = symbols("N U U_mean")
 MEAN = sp.Eq(U_mean, sp.Integral(LOAD, (t, 0, T)) / T)
-"""What the mean of the load is."""
+"""The definition of the mean of the load."""
 
 
 @dataclass(frozen=True)
 class FirstOrder(Rule):
-    """How the rate approaches its limit, from how h/sigma does.
+    """The approach of the rate to its limit, from that of h/sigma.
 
     ``du/dt = F(x)``, ``u (x - l) - a -> 0`` with bounded a, ``x -> l``, ``du/dt -> R > 0``:
     ``t (du/dt - R) - F'(l) a/R -> 0``, as u/t tends to R and F is differentiable at l.
@@ -90,8 +90,8 @@ class LogarithmicDrift(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         approach = limit_in_time(premises[0])
-        for said in (PERIODIC.relation, MEAN):
-            require_hypothesis(said, *premises)
+        for relation in (PERIODIC.relation, MEAN):
+            require_hypothesis(relation, *premises)
         (rate,) = approach.expr.atoms(sp.Derivative) - _laws(approach.expr)
         u, now, load = field_of_rate(rate), sp.Dummy(), sp.Dummy()
         flat = approach.expr.xreplace({rate: now}).xreplace({LOAD: load})
@@ -169,7 +169,7 @@ class LeadingTerm(Rule):
         flat = {s: small} | {x: -sp.Dummy(positive=True) for x in fallen}
         claimed, cycles = (e.xreplace(flat) for e in (sp.exp(leading), given.rhs / pace))
         slope = sp.diff(cycles, small)
-        moving = cycles.has(t) or clocks(cycles)  # of which the slope knows nothing
+        moving = cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
         if moving or not constant(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         require(sp.Ge(s, 0), *premises)
@@ -181,8 +181,8 @@ class LeadingTerm(Rule):
 
 
 def _end(expr: sp.Expr, small: sp.Dummy) -> sp.Expr:
-    """Return the limit for small -> 0+ of a quotient of exponentials, written as one exponential;
-    NaN where SymPy finds none."""
+    """Return the limit for small -> 0+ of a quotient, whose exponentials are merged into one; NaN
+    if SymPy finds none."""
     expr = expr.replace(sp.exp, lambda argument: sp.exp(sp.expand(sp.cancel(argument))))
     expr = sp.powsimp(sp.expand(sp.together(expr)))
     try:

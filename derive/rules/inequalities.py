@@ -114,8 +114,8 @@ class LogarithmicSlope(Rule):
         if not smooth(value) or not all(holds(goal) for goal in goals):
             raise RuleError(f"missing premise: |{slope}| <= {self.bound}")
         ratio = self.function(self.a) / self.function(self.b)
-        said = sp.Le(sp.Abs(sp.log(ratio)), self.bound * sp.Abs(self.a - self.b), evaluate=False)
-        return Conclusion(Inequality(said))
+        bound = self.bound * sp.Abs(self.a - self.b)
+        return Conclusion(Inequality(sp.Le(sp.Abs(sp.log(ratio)), bound, evaluate=False)))
 
 
 @dataclass(frozen=True)
@@ -127,10 +127,10 @@ class Threshold(Rule):
     words = "The left side increases with {variable} and reaches the level at the bound, by {all}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        said = claim_of(self.claim)
-        if not isinstance(said, Equivalence):
+        claim = claim_of(self.claim)
+        if not isinstance(claim, Equivalence):
             raise RuleError(f"missing premise: {self.claim} is an equivalence")
-        demand, bound = said.left, said.right
+        demand, bound = claim.left, claim.right
         if self.variable in (demand.greater, demand.lesser):
             demand, bound = bound, demand
         function, level, point = demand.greater, demand.lesser, bound.lesser
@@ -146,4 +146,4 @@ class Threshold(Rule):
             raise RuleError(f"missing premise: {function} increases with {self.variable}")
         if not is_zero(function.subs(self.variable, point) - level):
             raise RuleError(f"missing premise: the left side is {level} at {point}")
-        return Conclusion(said)
+        return Conclusion(claim)

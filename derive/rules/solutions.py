@@ -1,11 +1,11 @@
 """Solutions of the differential equation: variables separated, integrals by parts, inverses.
 
 Key results
-    Follows       the one root of the equation of the pressure is continuous
+    Follows       the only root of the equation of the pressure is continuous
     Separate      c t = int g(y) dy, where rate and wear are functions of y alone
     Integrated    a part of an integral, or all of it, by a primitive
     Lambert       w e^w = x gives w = W(x)
-    FirstRoot     the first zero of what a positive factor makes quadratic
+    FirstRoot     the first zero of a function that a positive factor makes quadratic
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ PRESSURE = symbol("p")
 
 @dataclass(frozen=True)
 class Follows(Rule):
-    """The one root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
+    """The only root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
 
     words = "The pressure is the one root of {0}, and follows wear and load continuously."
     source = "implicit function theorem"
@@ -68,7 +68,7 @@ class Separate(Rule):
     """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
     Premises: the rate, then u in terms of y, unless y is u, and y(0), unless the integral begins
-    with this name.  y is continuous: a wear, a roughness, or what a premise says to be so.
+    with this name.  y is continuous: a wear, a roughness, or a field with a premise that it is.
     """
 
     claim: sp.Equality
