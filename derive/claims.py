@@ -1,9 +1,9 @@
-"""Claims: what a judgement says, typed.
+"""Claims of judgements, typed.
 
 Overview
     A claim is an equality, an inequality, two of them, an inequation, an equivalence, a limit or
-    an asymptotic relation; what no relation says is a property.  ``relation`` is the SymPy form,
-    for printing and for comparison.
+    an asymptotic relation, or else a property.  ``relation`` is the SymPy form, for printing and
+    for comparison.
 Key results
     claim_of(relation)                  the typed claim of a SymPy relation
     part of a claim by its name         ``lhs``, ``lesser``, ``value``; a claim has no others
@@ -23,11 +23,11 @@ from sympy.printing.pretty.pretty import PrettyPrinter
 from sympy.printing.pretty.stringpict import prettyForm
 
 landau_o = sp.Function("o", real=True)
-"""What vanishes in comparison with its argument, as in ``u = F + o(1)``."""
+"""Landau's o: a term that is negligible against its argument, as in ``u = F + o(1)``."""
 
 
 class ClaimError(ValueError):
-    """A relation is of no type that a claim may have."""
+    """A relation is none of the types of claims."""
 
 
 class FirstZero(sp.Expr):
@@ -43,7 +43,7 @@ class FirstZero(sp.Expr):
 
 
 class Predicate(Boolean):
-    """What no relation between numbers says."""
+    """A statement that is no relation between numbers."""
 
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
         return rf"\text{{{self}}}"
@@ -87,7 +87,7 @@ class Term(sp.Expr):
 
     @property
     def power(self) -> int:
-        """Return the power of a roughness whose dimension the coefficient has."""
+        """Return n for a coefficient of the dimension of roughness^n."""
         return int(self.args[0])
 
     @property
@@ -106,7 +106,7 @@ class Term(sp.Expr):
 
 
 class Drift(Term):
-    """c_n of the expansion: the growth of the mean at order 1/m^n; it does not vary in tau."""
+    """c_n of the expansion: the growth of the mean at order 1/m^n, independent of tau."""
 
     letter = "c"
 
@@ -122,19 +122,19 @@ class Oscillation(Term):
 
 
 class Claim(ABC):
-    """What a judgement says."""
+    """The claim of a judgement."""
 
     @property
     @abstractmethod
     def relation(self) -> sp.Basic:
-        """Return the claim as SymPy writes it."""
+        """Return the claim as a SymPy relation."""
 
     def __getattr__(self, part: str) -> Any:
-        """Refuse to read a part that a claim of this type does not have."""
+        """Refuse a part that claims of this type lack."""
         raise AttributeError(f"{type(self).__name__.lower()} has no {part}")
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
-        """Return the claim of the same type with another form of its expressions."""
+        """Return the claim with ``change`` applied to its expressions."""
         return claim_of(_mapped(self.relation, change))
 
 
@@ -160,7 +160,7 @@ class Equality(Claim):
 
 @dataclass(frozen=True)
 class Inequality(Claim):
-    """``a <= b``, or strictly ``a < b``, in the orientation in which it was written."""
+    """``a <= b``, or strictly ``a < b``, in its original orientation."""
 
     written: Relational
 
@@ -170,17 +170,17 @@ class Inequality(Claim):
 
     @property
     def lesser(self) -> sp.Expr:
-        """Return the side that is not the greater."""
+        """Return the smaller side."""
         return self.written.lts
 
     @property
     def greater(self) -> sp.Expr:
-        """Return the side that is not the lesser."""
+        """Return the larger side."""
         return self.written.gts
 
     @property
     def strict(self) -> bool:
-        """Return whether the sides differ."""
+        """Return whether the inequality is strict."""
         return isinstance(self.written, (sp.StrictGreaterThan, sp.StrictLessThan))
 
 
@@ -198,7 +198,7 @@ class Inequation(Claim):
 
 @dataclass(frozen=True)
 class Equivalence(Claim):
-    """Two inequalities that hold together or not at all."""
+    """Two equivalent inequalities."""
 
     left: Inequality
     right: Inequality
@@ -247,7 +247,7 @@ class Asymptotic(Claim):
 
 @dataclass(frozen=True)
 class Conjunction(Claim):
-    """Two inequalities that both hold: ``low <= middle <= high``, or of different things."""
+    """Two inequalities that both hold, such as ``low <= middle <= high``."""
 
     first: Inequality
     second: Inequality
@@ -259,7 +259,7 @@ class Conjunction(Claim):
 
 @dataclass(frozen=True)
 class Property(Claim):
-    """A predicate: that the load is continuous, say."""
+    """A predicate, such as the continuity of the load."""
 
     said: Predicate
 

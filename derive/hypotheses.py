@@ -1,13 +1,13 @@
-"""Hypotheses: what a judgement rests on, and the words for those that have a name.
+"""Hypotheses of judgements, and the words for some of them.
 
 Overview
     A hypothesis is a relation; between fields it holds at every time.  Its words are looked up by
-    that relation, in tables below and with the equations of the model, and are about quantities
-    alone whose meaning nobody can define.  Any other hypothesis is shown as its formula, so that
-    no reader is told what a relation does not say.
+    that relation, in tables below and with the equations of the model, and contain only quantities
+    of the vocabulary.  Any other hypothesis is shown as its formula, so that words never promise
+    more than the relation.
 Key results
-    Hypothesis    a relation and its kind, in words, as one types it and in LaTeX
-    sentences     hypotheses as a reader is told them
+    Hypothesis    a relation and its kind, in words, as plain text and in LaTeX
+    sentences     hypotheses in sentences for readers
     SMOOTH_PIN, ..., CONTINUOUS      the settings that have a name
     ROUGH_BEARING, ..., OPEN_GAP     other conditions that have words
 """
@@ -29,7 +29,7 @@ from .note import model
 from .symbols import rate, symbols, t
 
 _MODULUS = re.compile(r"Abs\((\w+)\)")
-#: Characters up to which a relation is easier to read than words.
+#: Number of characters up to which a relation is easier to read than words.
 _SHORT = 30
 
 
@@ -39,11 +39,11 @@ class Kind(StrEnum):
     MODEL = "model"  # an equation of the note's model, (1) to (5)
     INITIAL = "initial"  # an initial value, (6)
     DEFINITION = "definition"  # a name for an expression
-    CONDITION = "condition"  # what a reader needs to know beside the claim
+    CONDITION = "condition"  # shown beside the claim
 
 
 def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
-    """Return hypotheses as a reader is told them: settings in one line, each other by itself."""
+    """Return hypotheses in sentences: settings in one line, each other one in its own."""
     shown = [h for h in hypotheses if h.shown]
     settings = dict.fromkeys(h.text for h in shown if h.is_setting)
     others = dict.fromkeys(f"if {h.text}" for h in shown if not h.is_setting)
@@ -52,7 +52,7 @@ def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """One hypothesis: a relation, as SymPy writes it, and what it is for.
+    """One hypothesis: a SymPy relation and its kind.
 
     >>> f_c = sp.Symbol("f_c")
     >>> SMOOTH_PIN.text, ROUGHENING.text, Hypothesis(f_c < 2).text
@@ -64,30 +64,30 @@ class Hypothesis:
 
     @property
     def shown(self) -> bool:
-        """Return whether a reader needs it beside an equation: the note's model and names are
-        known, another contact law is not."""
+        """Return whether it is shown beside an equation: the note's model and definitions are
+        not, another contact law is."""
         return self.kind is Kind.CONDITION or (self.kind is Kind.MODEL and not self.words)
 
     @property
     def is_setting(self) -> bool:
-        """Return whether it is a setting, which its name says better than a formula."""
+        """Return whether it is a setting, which is shown by its name, not by its formula."""
         return self.shown and self.relation in _SETTINGS
 
     @property
     def words(self) -> str:
-        """Return what it is called; empty where its formula says it."""
+        """Return its words, empty if only its formula is shown."""
         if self.kind is Kind.DEFINITION:
             return _meaning(self.relation)
         return _SETTINGS.get(self.relation) or _OTHERS.get(self.relation, "")
 
     @property
     def text(self) -> str:
-        """Return it in words, or as one types it where it has none."""
+        """Return its words, or its formula as plain text if it has none."""
         return self.words or self._formula
 
     @property
     def typed(self) -> str:
-        """Return the relation as one types it; the words of one that is long or no inequality.
+        """Return the relation as plain text, its words if it is an equation or long.
 
         >>> ROUGHENING.typed, BOUNDED_LOAD.typed, KEPT.typed
         ('f_c > 0', '|U_a| <= U', 'wear does not change the roughness')
@@ -99,14 +99,14 @@ class Hypothesis:
     def _formula(self) -> str:
         from .typeset.present import presentable
 
-        said = presentable(self.relation)
-        parts = said.args if isinstance(said, sp.And) else (said,)
+        relation = presentable(self.relation)
+        parts = relation.args if isinstance(relation, sp.And) else (relation,)
         signs = {sp.Equality: "=", sp.Unequality: "!="}
-        written = (
+        texts = (
             f" {signs[type(p)]} ".join(map(_typed, p.args)) if type(p) in signs else _typed(p)
             for p in parts
         )
-        return ", ".join(_MODULUS.sub(r"|\1|", part) for part in written)
+        return ", ".join(_MODULUS.sub(r"|\1|", text) for text in texts)
 
     @property
     def latex(self) -> str:
@@ -122,7 +122,7 @@ def _typed(expr: sp.Basic) -> str:
 
 
 def _meaning(relation: sp.Basic) -> str:
-    """Return what a definition says of its names."""
+    """Return a definition in words: its names, and the expansion that they belong to."""
     names = " and ".join(sorted(defined_by(relation)))
     terms = "".join(f", in {term.words}" for term in relation.atoms(Term))
     return f"{names} by definition{terms}"

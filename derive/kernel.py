@@ -1,16 +1,16 @@
 """The kernel: judgements, and the one place where they are made.
 
 Overview
-    A judgement ``Gamma |- claim`` says: wherever the hypotheses Gamma hold at every time, so does
-    the claim.  Rules alone make judgements: a rule is a theorem, read off its premises; it lives
-    in ``derive.rules``.  The hypotheses of a conclusion are those of the premises, plus what the
-    rule adds, minus what a theorem discharges.
+    A judgement ``Gamma |- claim`` states: if the hypotheses Gamma hold at every time, so does the
+    claim.  Rules alone make judgements: a rule is a theorem that reads its premises; all rules
+    are in ``derive.rules``.  The hypotheses of a conclusion are those of the premises, plus those
+    that the rule adds, minus those that a theorem discharges.
 Key results
-    Judgement     hypotheses, claim, the rule and the premises that gave it
-    Rule          a theorem: what it concludes from premises
+    Judgement     hypotheses, claim, and the rule and premises from which it follows
+    Rule          a theorem, which concludes from premises
     infer         apply a rule
     chain         judgements and all that they rest on, premises first
-    replayed      None, or why a judgement does not follow: every rule applied again
+    replayed      None, or the reason why a judgement does not follow from its parents
 References
     Gordon, Milner, Wadsworth, Edinburgh LCF, 1979.
 """
@@ -40,16 +40,16 @@ _ROOM = "derive.rules."
 _TOKEN = object()
 _PRESSURE = symbol("p")
 LIMIT_S = 60.0
-"""Seconds of CPU time after which a symbolic step is given up."""
+"""Limit of CPU time for a symbolic step, in seconds."""
 
 
 def plain(expr: sp.Basic) -> str:
-    """Return an expression as one types it."""
+    """Return an expression as plain text."""
     return str(expr).replace("(t)", "")
 
 
 def listed(labels: Iterable[str]) -> str:
-    """Return labels with commas, and a word before the last one.
+    """Return labels as a list in words, with "and" before the last one.
 
     >>> listed(["(1)", "(2)", "(3)"])
     '(1), (2) and (3)'
@@ -64,7 +64,7 @@ class RuleError(ValueError):
 
 @dataclass(frozen=True)
 class Conclusion:
-    """What a rule makes of its premises, beside the union of their hypotheses."""
+    """The claim that a rule concludes, and the hypotheses that it adds and discharges."""
 
     claim: Claim
     adds: tuple[Hypothesis, ...] = ()
@@ -72,14 +72,14 @@ class Conclusion:
 
 
 class Rule(ABC):
-    """A theorem.  Its fields are what the author chooses; what must hold comes from premises."""
+    """A theorem.  Its fields are the author's choices; its conditions are proved from premises."""
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
     asks: ClassVar[tuple[str, ...]] = ()
-    """The premises that come first, in this order; others may follow."""
+    """The first premises, in this order; others may follow."""
     source = "elementary"
-    """Where the theorem is found."""
+    """A reference for the theorem."""
 
     def __call__(self, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
         """Return the judgement that follows from premises, as ``infer`` does."""
@@ -87,10 +87,10 @@ class Rule(ABC):
 
     @abstractmethod
     def conclude(self, *premises: Judgement) -> Conclusion:
-        """Return what follows; RuleError names the premise or side condition that is missing."""
+        """Return the conclusion; RuleError names a missing premise or side condition."""
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
-        """Return what was done, in one sentence, with the labels of the premises."""
+        """Return a sentence on this application of the rule, with the labels of the premises."""
         fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
         places = {"all": listed(labels), "others": listed(labels[1:])}
         return self.words.format(*labels, **places, **fields)
@@ -100,8 +100,7 @@ class Rule(ABC):
 class Judgement:
     """``hypotheses |- claim``, by ``rule`` from ``parents``.  Only ``infer`` makes one.
 
-    ``remark`` tells the reader what the formula does not: where the note drops a condition,
-    switches a sign or rounds.
+    ``remark`` is for readers: that the note drops a condition, switches a sign or rounds.
     """
 
     hypotheses: tuple[Hypothesis, ...]
@@ -118,7 +117,7 @@ class Judgement:
 
     @property
     def relation(self) -> sp.Basic:
-        """Return the claim as SymPy writes it."""
+        """Return the claim as a SymPy relation."""
         return self.claim.relation
 
     @property
@@ -128,7 +127,7 @@ class Judgement:
 
     @property
     def domains(self) -> tuple[sp.Basic, ...]:
-        """Return what the vocabulary says of the domains of the symbols that occur."""
+        """Return the domains, by the vocabulary, of the symbols that occur."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
         return tuple(sorted({known for r in relations for known in _domains(r)}, key=str))
 
@@ -142,14 +141,14 @@ class Judgement:
 
 @cache
 def _domains(relation: sp.Basic) -> tuple[sp.Basic, ...]:
-    """Return the domains of the quantities that a relation speaks of."""
+    """Return the domains of the quantities in a relation."""
     atoms = relation.atoms(sp.Symbol, sp.Function)
-    found = (domain(a) for a in atoms if not QUANTITIES.keys().isdisjoint((str(a), str(a.func))))
-    return tuple(known for known in found if known is not None)
+    domains = (domain(a) for a in atoms if not QUANTITIES.keys().isdisjoint((str(a), str(a.func))))
+    return tuple(known for known in domains if known is not None)
 
 
 def domain(atom: sp.Expr) -> Relational | None:
-    """Return the domain of a quantity, where it is not all reals."""
+    """Return the domain of a quantity, None for all real numbers."""
     for holds, relation in ((atom.is_positive, sp.Gt), (atom.is_nonnegative, sp.Ge)):
         if holds:
             return relation(atom, 0, evaluate=False)
@@ -157,15 +156,16 @@ def domain(atom: sp.Expr) -> Relational | None:
 
 
 def infer(rule: Rule, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
-    """Apply a rule to premises; RuleError where its theorem does not cover them."""
+    """Apply a rule to premises; RuleError if its theorem does not cover them."""
     hypotheses, claim = _followed(rule, premises)
     return Judgement(hypotheses, claim, rule, premises, name, remark, _TOKEN)
 
 
 def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
-    """Return what a rule makes of premises: a function of its fields, their hypotheses and claims.
+    """Return the hypotheses and the claim that a rule concludes from premises.
 
-    So the same application is worked out once, unless somebody has changed what came of it.
+    They depend only on its fields and on the hypotheses and claims of the premises, so that each
+    application is computed once; RuleError if a stored conclusion was changed.
     """
     kind = type(rule)
     if not kind.__module__.startswith(_ROOM) or (
@@ -192,12 +192,12 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
 _KNOWN: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, object]] = {}
 
 
-def _content(whole: object) -> object:
-    """Return what a thing is made of, down to its leaves, which nobody can change."""
-    if isinstance(whole, (Claim, Hypothesis)):
-        return type(whole), *map(_content, vars(whole).values())
-    parts = whole if isinstance(whole, tuple) else getattr(whole, "args", ())
-    return (type(whole), *map(_content, parts)) if parts else whole
+def _content(node: object) -> object:
+    """Return the parts of an object, down to its leaves, which are immutable."""
+    if isinstance(node, (Claim, Hypothesis)):
+        return type(node), *map(_content, vars(node).values())
+    parts = node if isinstance(node, tuple) else getattr(node, "args", ())
+    return (type(node), *map(_content, parts)) if parts else node
 
 
 def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
@@ -213,7 +213,7 @@ def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypot
 
 
 def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
-    """Refuse a name that is defined twice, or by itself: no reader sees what that says."""
+    """Refuse a name with two definitions or a circular one, which may hide a condition."""
     rests = dict[str, frozenset[str]]()
     for relation in (h.relation for h in hypotheses if h.kind is Kind.DEFINITION):
         if not rests.keys().isdisjoint(defined_by(relation)):
@@ -228,11 +228,11 @@ def _require_names(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 
 def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
-    """Refuse hypotheses that nothing satisfies: anything would follow from them.
+    """Refuse contradictory hypotheses: anything would follow from them.
 
-    They hold at every time, at the start too, and where fields that wear are equal, their rates
-    are.  Of two equations of the model for one quantity no reader is told,
-    nor of the first closure in (6), which contradicts (1) where the load does not begin at zero.
+    They hold at every time, the start included, and equal fields that wear have equal rates.
+    Two equations of the model for one quantity are refused too, since readers do not see them:
+    h(0) = h_0 of (6) contradicts (1) if the load does not begin at zero.
     """
     of_closure = [h for h in hypotheses if h.relation.has(CLOSURE[True].lhs.func)]
     if len(of_closure) > 1 and any(h.kind is Kind.INITIAL for h in of_closure):
@@ -244,7 +244,7 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
-    """Return what hypotheses say while there is contact, at all times they name, and of rates."""
+    """Return the hypotheses in contact, also at all times in them, and for rates."""
     now = [h.relation for h in hypotheses]
     pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
     fields = frozenset[sp.Basic]().union(*(relation.atoms(AppliedUndef) for relation in now))
@@ -255,7 +255,7 @@ def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
 
 @cache
 def _implied(relation: sp.Basic, times: frozenset[sp.Basic]) -> tuple[sp.Basic, ...]:
-    """Return what a relation between fields at every time says at others, and of rates."""
+    """Return a relation between fields at other times, and between their rates."""
     fields = relation.atoms(AppliedUndef)
     other = relation.has(sp.Derivative, sp.Integral, sp.Limit) or {f.args for f in fields} != {(t,)}
     if other or any(free.name in CLOCKS - {"t"} for free in relation.free_symbols):
@@ -267,7 +267,7 @@ def _implied(relation: sp.Basic, times: frozenset[sp.Basic]) -> tuple[sp.Basic, 
 
 
 def _require_language(*parts: object) -> None:
-    """Refuse what is not of the language, and two quantities of one name."""
+    """Refuse expressions outside the language, and two quantities of one name."""
     said = [h for h in parts if type(h) is Hypothesis and type(h.kind) is Kind]
     expressions = [part for part in parts if isinstance(part, sp.Basic)]
     if len(said) + len(expressions) < len(parts):
@@ -281,7 +281,7 @@ def _require_language(*parts: object) -> None:
 
 
 def replayed(judgement: Judgement) -> str | None:
-    """Return None if the rule gives this judgement again from its parents, else what is wrong."""
+    """Return None if the rule gives this judgement again from its parents, else the fault."""
     if type(judgement) is not Judgement:
         return "it is no judgement"
     if {type(judgement.hypotheses), type(judgement.parents)} != {tuple}:
@@ -300,7 +300,7 @@ def replayed(judgement: Judgement) -> str | None:
 
 
 def identity(step: Judgement) -> Hashable:
-    """Return what makes two steps the same."""
+    """Return a key that is equal for equal steps."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
     return (step.rule, step.hypotheses, step.claim, parents)
 
@@ -308,7 +308,7 @@ def identity(step: Judgement) -> Hashable:
 def chain(*judgements: Judgement) -> tuple[Judgement, ...]:
     """Return the judgements and all that they rest on, each once, premises first.
 
-    RuleError if one rests on itself.
+    RuleError if a judgement rests on itself.
     """
     seen: dict[int, Judgement] = {}
     begun: set[int] = set()
