@@ -50,7 +50,7 @@ EXPANSION = (
     r"\bar{\sigma} = m + w_1 / m + w_2 / m^{2} + \dots",
     r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
 )
-"""What the coefficients of the expansion for long times are those of, in LaTeX."""
+"""The long-time expansion that defines its coefficients, in LaTeX."""
 
 Proved = Judgement | tuple[Judgement, ...]
 """The proof of an equation: a judgement, or those of a system."""
