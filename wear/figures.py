@@ -108,6 +108,10 @@ def history(
             elif logarithmic and len(shown) > 1 and spans_decades(panel.lines):
                 axes.set_yscale("log")
             _panel(axes, panel, logarithmic)
+        x = np.concatenate([line.x for each in shown for line in (*each.lines, *each.points)])
+        first, last = x[x > 0.0].min() if logarithmic else x.min(), x.max()
+        if first < last:
+            rows[-1].set_xlim(first, last)
         rows[-1].set_xlabel(abscissa.value)
         figure.align_ylabels()
     return figure
@@ -215,8 +219,7 @@ def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
 
 
 def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:
-    """Limits that end with the data in x and, on a linear axis, contain zero in y."""
-    axes.set_xlim(min(float(line.x[0]) for line in lines), max(float(line.x[-1]) for line in lines))
+    """Set limits in y that contain zero on a linear axis."""
     extremes = [*limits, *(y for line in lines for y in (line.y.min(), line.y.max()))]
     if axes.get_yscale() == "log":
         axes.autoscale(axis="y")

@@ -68,6 +68,21 @@ def test_every_variant_has_its_equations_and_the_one_for_all(variant, opening):
         assert not shown["scene-whole"].relation.has(symbol("u_a"), symbol("U_c"), symbol("p"))
 
 
+EDGES = {
+    "grazing": "arrest-depth", "deep-tail": "log-drift", "f-one-third": "one-third",
+    "f-zero": "logarithmic-wear", "equal-wear": "two-solids-log-drift",
+}  # fmt: skip
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("name", EDGES)
+def test_hard_scenes_have_a_report_with_the_equations_of_their_regime(name):
+    """The first two also where the requested accuracy, or the offset, cannot be had."""
+    document = own.report(load_scene(name), f"wear report {name}")
+    assert next(reversed(document.equations)) == EDGES[name]
+    assert "sec:life" in document.marks
+
+
 @pytest.mark.usefixtures("undrawn")
 def test_blocks_have_no_long_run():
     """Nor pressure inside a cycle; what a cycle is differs from block to block."""

@@ -14,7 +14,7 @@ from wear import cycles
 from wear.binding import bind
 from wear.generated import asymptotics as formula
 from wear.regime import Asymptote, asymptote
-from wear.scene import load_scene
+from wear.scene import builtin_names, load_scene
 from wear.scene_orbit import SceneOrbit
 from wear.solver import solve
 
@@ -110,6 +110,13 @@ def test_one_third_with_cutoff():
 )
 def test_regimes(name, overrides, regime):
     assert _asymptote(name, *overrides).regime == regime
+
+
+@pytest.mark.parametrize("name", builtin_names())
+def test_every_scene_has_an_answer(name):
+    """Also where the panel towards infinity is out of the range of a double."""
+    regimes = ("steady", "logarithmic", "saturating", "finite-time", "arrest")
+    assert asymptote(name).regime in regimes
 
 
 def test_thresholds():

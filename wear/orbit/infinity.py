@@ -34,7 +34,7 @@ def steady_state(panel: Panels, cycles: float) -> SteadyState:
     n is `cycles`."""
     frame, series = panel.frame, panel.series[0]
     start, length = float(frame.starts[0]), float(frame.starts[0] + frame.c[0])
-    per_x = 2 / float(frame.x_ends[0])
+    per_x = 2 / frame.x_ends[0]
     infinity = per_x - 1  # in t
     level = float(chebyshev.chebval(infinity, series))
     first = _divided(series, infinity)  # (S(x) - S(1))/(t - t(1))

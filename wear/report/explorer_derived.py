@@ -45,6 +45,11 @@ _PARTIAL: Choices = {"regime": ("partial",)}
 _ARREST: Choices = {"regime": ("arrest",)}
 
 
+def _of(regime: str, load: str) -> Choices:
+    """Return the choices of a closed form for one regime under one kind of load."""
+    return {"regime": (regime,), "load": (load,)} | _TANH | _SMOOTH | _RIGID
+
+
 class _Row(NamedTuple):
     """An equation of the catalogue, under a title of this page."""
 
@@ -71,6 +76,8 @@ _LONG_RUN = (
     _Row("Wear rate in the end", "two-solids-rate", _TANH | _STEADY | _TWO_SOLIDS),
     _Row("Logarithm in the wear", "two-solids-log-drift", _TANH | _STEADY | _TWO_SOLIDS | _RIGID),
     _Row("Wear per cycle in the end", "one-third", _TANH | _PARTIAL),
+    _Row("Wear in the end", "logarithmic-wear", _of("logarithmic", "sine")),
+    _Row("Cycles to a roughness", "saturating-wear", _of("saturating", "constant")),
     _Row("Wear at arrest", "arrest-depth", _ARREST | _SMOOTH),
     _Row("Wear at arrest", "arrest-depth-two-solids", _ARREST | _TWO_SOLIDS),
 )

@@ -17,7 +17,7 @@ from derive.symbols import QUANTITIES
 from derive.variant import Variant
 from derive.variant_equations import equations_of
 from wear import figures
-from wear.faults import UsageError
+from wear.faults import AccuracyError, UsageError
 from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
 from wear.fitting.readings import Specimen
 from wear.history import History
@@ -58,13 +58,13 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     found = _sensitivities(
         scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
     )
-    values = {
+    values: dict[str, Any] = {
         "scene": scene,
         "limit": limit,
         "curve": curve,
         "quantities": QUANTITIES,
         "mm": WEAR.scale,
-        "kind": scene.to_tables()["load"]["kind"],
+        "kind": _kind(scene),
         "written": number,
         "notices": _notices(scene, limit, curve),
         "identifiers": list(equations),
@@ -92,7 +92,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
 def _solved(scene: Scene) -> History:
     """Return the state along cycles, powers of ten among them: as far as the load goes, and no
     further than the model is meant for."""
-    found = solve(scene, _to(min(_LAST, most_cycles(scene.load))), rtol=1e-10)
+    found = _best(scene, min(_LAST, most_cycles(scene.load)))
     ends = [n for n in range(1, len(found.cycles) + 1) if _is_round(found.cycles[n - 1])]
     meant = [
         int(found.cycles[n - 1])
@@ -103,11 +103,19 @@ def _solved(scene: Scene) -> History:
     ]
     if not meant or len(meant) == len(ends):
         return found
-    return solve(scene, _to(meant[-1]), rtol=1e-10)
+    return _best(scene, meant[-1])
 
 
-def _to(last: int) -> list[int]:
-    return cycles_along(1, last, _POINTS, [10**n for n in range(9) if 10**n < last])
+def _best(scene: Scene, last: int) -> History:
+    """Return the state along cycles up to the last, as accurate as the scene allows."""
+    cycles = cycles_along(1, last, _POINTS, [10**n for n in range(9) if 10**n < last])
+    try:
+        return solve(scene, cycles, rtol=1e-10)
+    except AccuracyError as missed:
+        best: History | None = missed.best
+        if best is None:
+            raise
+        return best
 
 
 def _is_round(cycle: int) -> bool:
@@ -123,10 +131,25 @@ def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
     variant = Variant(own, key.support == "compliant", Pin(key.pin), key.ends_at_3_sigma)
     chosen: dict[str, str | bool] = {
         "law": key.law, "pin": key.pin, "compliant": variant.compliant, "opening": opening,
-        "cutoff": key.ends_at_3_sigma, "regime": limit.regime if limit else "",
+        "cutoff": key.ends_at_3_sigma, "regime": _regime(scene, limit), "load": _kind(scene),
     }  # fmt: skip
     model = equations_of(variant, opening=opening)
     return [*model, *(equation(identifier) for identifier in holding(chosen))]
+
+
+def _regime(scene: Scene, limit: Asymptote | None) -> str:
+    """Return the regime by which the equations are chosen: of steady wear without a logarithm
+    there is one where gap and cutoff grow alike, and else none."""
+    if limit is None:
+        return ""
+    if limit.regime != "steady" or limit.log_coefficient_mm is not None:
+        return limit.regime
+    alike = scene.bearing.roughness_growth == 1 / 3
+    return "partial" if scene.contact.ends_at_3_sigma and alike else ""
+
+
+def _kind(scene: Scene) -> str:
+    return str(scene.to_tables()["load"]["kind"])
 
 
 def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:

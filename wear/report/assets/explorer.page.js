@@ -338,7 +338,7 @@ function tell(state, solved, end, found) {
 }
 
 function showEquations(state, regime) {
-  const facts = { ...state, opening: state.opening && state.pin.startsWith("worn"), regime };
+  const facts = { ...state, opening: state.opening && state.pin.startsWith("worn"), regime, load: chosen.load.kind };
   for (const row of document.querySelectorAll("[data-holds]")) {
     const holds = Object.entries(JSON.parse(row.dataset.holds));
     row.hidden = !holds.every(([choice, values]) => values.includes(facts[choice]));
