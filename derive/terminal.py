@@ -5,6 +5,7 @@ Every command imports this module at its start, so it imports the standard libra
 
 from __future__ import annotations
 
+import _thread
 import argparse
 import json
 import math
@@ -25,6 +26,7 @@ FAILED = 1  # a verification does not hold
 USAGE = 2  # bad usage, bad scene, a file that cannot be read or written
 INACCURATE = 3  # the requested accuracy was not reached
 INTERRUPTED = 130
+MOMENT = 0.05  # s, after which a lost Ctrl-C is repeated
 SILENT, APART = 2.0, 0.5  # s, before the current activity is shown, and between two updates
 
 
@@ -48,7 +50,8 @@ def run(
     _prepare_output()
     status = DONE
     try:
-        status = main()
+        with _no_interrupt_lost():
+            status = main()
         sys.stdout.flush()
     except BrokenPipeError:
         pass  # the reader (`head`, `less`) has seen enough
@@ -64,6 +67,24 @@ def run(
     finally:
         _discard_output()
     return status
+
+
+@contextmanager
+def _no_interrupt_lost() -> Iterator[None]:
+    """Repeat a Ctrl-C that Python drops because it comes within a destructor."""
+    before = sys.unraisablehook
+
+    def hook(dropped: sys.UnraisableHookArgs) -> None:
+        if issubclass(dropped.exc_type, KeyboardInterrupt):
+            threading.Timer(MOMENT, _thread.interrupt_main).start()
+        else:
+            before(dropped)
+
+    sys.unraisablehook = hook
+    try:
+        yield
+    finally:
+        sys.unraisablehook = before
 
 
 def complain(name: str, message: str) -> None:

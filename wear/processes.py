@@ -8,6 +8,7 @@ import signal
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any
 
 Ask = Callable[..., Callable[[], Any]]
@@ -20,11 +21,28 @@ def cores() -> int:
     return counted or 1
 
 
+class _Worker(SpawnProcess):
+    """A process that Ctrl-C does not end: not even while it starts, before `_ignore_interrupts`."""
+
+    def start(self) -> None:
+        if not hasattr(signal, "pthread_sigmask"):
+            super().start()
+            return
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            super().start()  # the process inherits the mask
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class _Context(SpawnContext):
+    Process = _Worker
+
+
 @contextmanager
 def workers(number: int) -> Iterator[ProcessPoolExecutor]:
     """Give so many processes; an exception, Ctrl-C say, ends what they are doing."""
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(number, mp_context=context, initializer=_ignore_interrupts)
+    pool = ProcessPoolExecutor(number, mp_context=_Context(), initializer=_ignore_interrupts)
     try:
         yield pool
         pool.shutdown()

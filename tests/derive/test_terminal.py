@@ -42,6 +42,19 @@ def test_the_users_faults_have_a_message_and_a_status(capsys, fault, status, mes
     assert capsys.readouterr() == ("", message)
 
 
+def test_an_interrupt_within_a_destructor_is_not_lost():
+    class Destroyed:
+        def __del__(self):
+            raise KeyboardInterrupt
+
+    def main():
+        Destroyed()
+        threading.Event().wait(60.0)
+        return 0
+
+    assert terminal.run("wear", main, {}) == 130
+
+
 def test_our_own_faults_are_not_hidden():
     with pytest.raises(ZeroDivisionError):
         terminal.run("wear run", stop(ZeroDivisionError()), {SceneError: 2})

@@ -55,7 +55,7 @@ def test_bad_usage_is_told_on_standard_error(call, arguments):
         (["cite", "hairer93"], 'wear cite: KEY: "hairer93" is unknown; did you mean hairer1993?'),
         (["run", "section4", "--method", "foo"], '"foo" is unknown; choose one of auto, '),
         (["explore", "-o", "nowhere/x.html"], "wear explore: --output: nowhere: no such folder"),
-        (["run", "section4", "--cycles", "9,000"], 'wear run: --cycles: "000": no number of cyc'),
+        (["run", "section4", "--cycles", "9,000"], 'wear run: --cycles: "000": not a number of'),
         (["bench", "-o", f"{__file__}/speed"], "test_cli.py: is not a folder"),
         (["reproduce", "-o", f"{__file__}/report"], "test_cli.py: is not a folder"),
     ],

@@ -1,5 +1,6 @@
 """The second process: what it has not begun is done here, and nothing twice."""
 
+import signal
 from concurrent.futures import Future
 from contextlib import nullcontext
 
@@ -34,3 +35,9 @@ def test_a_single_core_has_no_second_process(monkeypatch):
     monkeypatch.setattr(processes, "workers", None)
     with processes.assistant() as ask:
         assert ask(int, "3")() == 3
+
+
+def test_ctrl_c_does_not_reach_a_process_that_starts():
+    with processes.workers(1) as pool:
+        blocked = pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
+    assert signal.SIGINT in blocked

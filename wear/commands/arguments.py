@@ -138,7 +138,7 @@ def cycles(text: str) -> tuple[int, ...]:
     if wrong:
         entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
         raise ArgumentTypeError(
-            f"{entries}: no number of cycles; "
+            f"{entries}: not a number of cycles; "
             f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
             f"{MOST_IN_RANGE:.0e}, such as 1,9000,1e8 or 0:9000"
         )
@@ -155,8 +155,26 @@ def number(low: float, high: float) -> Callable[[str], float]:
     def bounded(text: str) -> float:
         value = _number(text)
         if not low <= value <= high:
-            raise ArgumentTypeError(f"{_quoted(text)} is no number from {low:g} to {high:g}")
+            problem = f"is not a number from {low:g} to {high:g}"
+            raise ArgumentTypeError(f"{_quoted(text)} {problem}")
         return value
+
+    return bounded
+
+
+def whole(low: int, high: int) -> Callable[[str], int]:
+    """Return what reads a whole number within bounds.
+
+    >>> whole(1, 1024)("1e3"), whole(0, 2**63)("9007199254740993")
+    (1000, 9007199254740993)
+    """
+
+    def bounded(text: str) -> int:
+        found = int(text) if text.strip().isdecimal() else _number(text)
+        if not low <= found <= high or found != int(found):
+            problem = f"is not a whole number from {low:g} to {high:g}"
+            raise ArgumentTypeError(f"{_quoted(text)} {problem}")
+        return int(found)
 
     return bounded
 
@@ -196,11 +214,11 @@ def _quoted(text: str) -> str:
     return f'"{shown(text)}"'
 
 
-def refuse_implausible(notices: Sequence[str], faults: Faults) -> None:
-    """Make faults of the notices of implausible magnitudes."""
+def refused(notices: Sequence[str], options: Options) -> Faults:
+    """Return the notices of implausible magnitudes, which `--strict` makes faults."""
     from wear.scene.notices import WORD
 
-    faults += [notice for notice in notices if notice.startswith(WORD)]
+    return Faults(text for text in notices if options.strict and text.startswith(WORD))
 
 
 def read(options: Options) -> Faults:
@@ -228,8 +246,7 @@ def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
     except SceneError as fault:
         faults.append(str(fault))
         return None
-    if options.strict:
-        refuse_implausible(scene.notices, faults)
+    faults += refused(scene.notices, options)
     return scene
 
 

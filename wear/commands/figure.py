@@ -63,10 +63,12 @@ def execute(options: Options) -> Answer:
         faults.append("--cycles: give one number of cycles, from 1 on")
     if len(scenes) > MOST_AT_ONCE:
         faults.append(f"{len(scenes)} scenes in one figure; name up to {MOST_AT_ONCE}")
+    if len({scene.name for scene in scenes}) < len(scenes):
+        faults.append("a scene is named twice; keep one")
     if len(scenes) > 1 and (inside is not None or any(each.changes for each in specimens)):
         faults.append("--inside, or readings with entries of the scene, go with one scene")
     if inside is not None:
-        _check_inside(inside, scenes, faults)
+        _check_inside(options, faults)
     faults.stop_if_any()
     if inside is not None:
         return _pressure_inside(scenes[0], inside, output)
@@ -90,7 +92,9 @@ def _against_cycles(options: Options, last: int) -> Answer:
     from wear.solver import solve
 
     abscissa, limit = Abscissa[options.axis.upper()], options.until_wear
-    runs = {Path(scene.name).stem: scene for scene in options.scene}
+    stems = {Path(scene.name).stem for scene in options.scene}
+    same = len(stems) < len(options.scene)  # files of one name in several folders
+    runs = {scene.name if same else Path(scene.name).stem: scene for scene in options.scene}
     if any(each.changes for each in options.readings):
         runs = {each.name: options.scene[0].with_(each.changes) for each in options.readings}
     cycles = cycles_along(1, last, POINTS, [] if options.log else np.linspace(0, last, POINTS))
@@ -99,19 +103,21 @@ def _against_cycles(options: Options, last: int) -> Answer:
     wear, *others = panels_of(histories, tuple(runs), abscissa)
     summary = _summary(histories[0].scene, cycles, options.output) | {"scenes": list(runs)}
     lines: list[str] = []
+    notices = [text for each in histories for text in run_output.notices_of(each)]
     if limit is not None:
         lives = [cycles_until(scene, limit, rtol=1e-6) for scene in runs.values()]
-        ends = [float(life.cycles[0]) for life in lives]
-        reached = [life.reached[0].value for life in lives]
-        summary |= {"cycles_until": ends, "reached": reached}
-        for name, end, way in zip(runs, ends, reached, strict=True):
-            cycle = f"{end:.0f} cycles" if math.isfinite(end) else way
-            lines.append(f"{name}: {limit:g} mm: {cycle}")
+        summary["cycles_until"] = [float(life.cycles[0]) for life in lives]
+        summary["reached"] = [life.reached[0].value for life in lives]
+        for name, life in zip(runs, lives, strict=True):
+            text = run_output.life_text(life.cycles[0], life.error[0], life.reached[0].value)
+            unit = " cycles" if math.isfinite(life.cycles[0]) else ""
+            lines.append(f"{name}: {limit:g} mm: {text}{unit}")
+            notices += life.notices
+    arguments.refused(notices, options).stop_if_any()
     shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
     drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
     _write(drawn, options.output)
-    notices = dict.fromkeys(n for each in histories for n in run_output.notices_of(each))
-    return Answer(summary, lambda: "\n".join(lines), tuple(notices))
+    return Answer(summary, lambda: "\n".join(lines), tuple(dict.fromkeys(notices)))
 
 
 def _write(drawn: object, output: Path) -> None:
@@ -120,10 +126,17 @@ def _write(drawn: object, output: Path) -> None:
     files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
 
 
-def _check_inside(inside: Sequence[int], scenes: Sequence[Scene], faults: Faults) -> None:
+def _check_inside(options: Options, faults: Faults) -> None:
     from wear.load import Blocks
     from wear.request import obstacle
 
+    inside, scenes = options.inside, options.scene
+    others = ("cycles", "until-wear", "data", "log")
+    given = [f"--{name}" for name in others if getattr(options, name.replace("-", "_"))]
+    if options.axis != ABSCISSAE[0]:
+        given.append("--axis")
+    if given:
+        faults.append(f"--inside: does not go with {', '.join(given)}; leave one or the other out")
     if len(inside) > MOST_AT_ONCE:
         faults.append(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")
     for scene in scenes:

@@ -43,7 +43,7 @@ def add_arguments(parser: Parser) -> None:
     arguments.add_cycles(parser, about, usage="--forecast N,...")
     arguments.add_depth(parser, "cycles to a wear depth, with band")
     about = "also sample the posterior by emcee, with this number of steps for each walker"
-    declare(parser, "--posterior STEPS", about, type=arguments.number(10, 1e6))
+    declare(parser, "--posterior STEPS", about, type=arguments.whole(10, 10**6))
     arguments.add_folder(parser, "write fit.json, fitted.toml and the figures there")
 
 
@@ -63,7 +63,7 @@ def execute(options: Options) -> Answer:
     if options.posterior is not None and not find_spec("emcee"):
         faults.append("--posterior needs emcee: pip install 'derive-wear[fit]'")
     model = None
-    if options.scene is not None:
+    if options.scene is not None and options.error is not None:
         asked = (options.free, options.free_each, options.error, options.ignore)
         try:
             model = FitModel.of(options.data, options.scene, *asked)
@@ -74,9 +74,10 @@ def execute(options: Options) -> Answer:
     with terminal.busy("fitting") as tell:
         result = Fit.of(model, progress=tell)
         tell("sampling the posterior")
-        samples = posterior(result, int(options.posterior)) if options.posterior else None
+        samples = posterior(result, options.posterior) if options.posterior else None
         tell("forecasting")
         document = {"scene": "", "data": options.data} | result.as_json(cycles, wear)
+    arguments.refused(document["notices"], options).stop_if_any()
     if samples is not None:
         for row, ends in zip(document["parameters"], np.quantile(samples, QUANTILES, axis=0).T,
                              strict=True):  # fmt: skip

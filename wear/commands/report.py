@@ -27,8 +27,11 @@ def add_arguments(parser: Parser) -> None:
 def execute(options: Options) -> Answer:
     """Solve the scene and write its report."""
     name = options.scene
-    arguments.read(options).stop_if_any()
-    folder = options.output or Path(f"{Path(options.scene.name).stem}-report")
+    faults = arguments.read(options)
+    folder = options.output or Path(f"{Path(name).stem}-report")
+    if obstacle := files.obstacle_to_folder(folder):
+        faults.append(obstacle)
+    faults.stop_if_any()
     from wear.report.own import report
     from wear.report.publish import published
 

@@ -48,7 +48,7 @@ def add_arguments(parser: Parser) -> None:
         "write the state at M phases of the cycle that begins after each of the numbers of "
         "cycles, to a .nc or .csv file, a part at a time"
     )
-    declare(parser, "--phases M", about, type=arguments.number(1, 1e6))
+    declare(parser, "--phases M", about, type=arguments.whole(1, 10**6))
     about = "write the states to a .csv, .nc or .tex file"
     declare(parser, "-o, --output FILE", about, type=arguments.file(*run_output.SUFFIXES))
 
@@ -68,8 +68,7 @@ def execute(options: Options) -> Answer:
     scene, cycles, rtol = options.scene, options.cycles, options.rtol
     wears, output = options.until_wear, options.output
     if options.phases is not None:
-        phases = int(options.phases)
-        return _inside(scene, cycles, phases, rtol, output)
+        return _inside(scene, cycles, options.phases, rtol, output)
 
     status, faulty = terminal.DONE, list[str]()
     try:
@@ -88,9 +87,7 @@ def execute(options: Options) -> Answer:
         more = [text for text in life.notices if text not in history.notices]
         until = _cycles_until(life) | {"notices": [*history.notices, *more]}
         notices += more
-    if options.strict:
-        arguments.refuse_implausible(notices, faults)
-        faults.stop_if_any()
+    arguments.refused(notices, options).stop_if_any()
     if output is not None:
         run_output.write(history, output)
 
@@ -130,8 +127,6 @@ def _check_inside(options: Options, faults: Faults) -> None:
     from wear.load.spans import most_cycles
     from wear.request import obstacle
 
-    if not options.phases.is_integer():
-        faults.append(f"--phases: {options.phases:g} is no whole number")
     if options.output is None or options.output.suffix not in _OF_PHASES:
         faults.append("--phases: name a .nc or .csv file with --output; there are too many states")
     if options.method not in ("auto", "abel"):

@@ -56,14 +56,24 @@ def until_text(until: Mapping[str, Any]) -> str:
     """Return a table of the cycles to depths of wear."""
     columns = until["cycles_until"]
     rows = [
-        [f"{wear:.10g}", str(cycles) if reached == "counted" else
-         f"{cycles:.6g} (± {error * cycles:.1g})" if reached == "extrapolated" else reached]
-        for wear, cycles, error, reached in zip(
+        [f"{wear:.10g}", life_text(*life)]
+        for wear, *life in zip(
             *(columns[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
             strict=True,
         )
-    ]  # fmt: skip
+    ]
     return terminal.table(["bearing\nwear\n(mm)", "reached\nafter\ncycle"], rows)
+
+
+def life_text(cycles: float, error: float, reached: str) -> str:
+    """Return a number of cycles to a depth of wear with its error, or why there is none.
+
+    >>> life_text(140, 1e-9, "counted"), life_text(1.5e13, 1e-6, "extrapolated")
+    ('140', '1.5e+13 (± 2e+07)')
+    """
+    if reached == "extrapolated":
+        return f"{cycles:.6g} (± {error * cycles:.1g})"
+    return f"{cycles:.0f}" if reached == "counted" else reached
 
 
 def latex(history: History) -> str:

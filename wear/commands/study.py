@@ -16,7 +16,9 @@ The same command again resumes a study that was stopped.
 from __future__ import annotations
 
 import logging
+import re
 import time
+from argparse import ArgumentTypeError
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
@@ -27,6 +29,7 @@ from derive import files, terminal
 from derive.command_line import Answer, Options, Parser, declare
 from wear import processes
 from wear.commands import arguments
+from wear.words import shown
 
 if TYPE_CHECKING:
     from wear.studies.rows import Study
@@ -49,7 +52,7 @@ def add_arguments(parser: Parser) -> None:
     arguments.add_cycles(parser, "numbers of cycles (default: %(default)s)", "9000")
     about = f"{', '.join(DESIGNS)} (default: %(default)s)"
     declare(parser, "--design DESIGN", about, lambda: DESIGNS, default="grid")
-    samples, seeds = arguments.number(0, 1e9), arguments.number(0, 2**63)
+    samples, seeds = arguments.whole(0, 10**9), arguments.whole(0, 2**63)
     declare(parser, "--samples N", "number of samples", type=samples, default="0")
     about = "seed of the samples (default: %(default)s)"
     declare(parser, "--seed SEED", about, type=seeds, default="0")
@@ -58,24 +61,30 @@ def add_arguments(parser: Parser) -> None:
     declare(parser, "-o, --output OUT.zarr", "folder of the results", required=True)
     where = parser.add_mutually_exclusive_group()
     about = "processes on this machine (default: one for each core)"
-    declare(where, "--workers N", about, type=arguments.number(1, 1024))
+    declare(where, "--workers N", about, type=arguments.whole(1, 1024))
     about = "use the workers of the Dask scheduler that runs there"
-    declare(where, "--scheduler ADDRESS", about)
+    declare(where, "--scheduler ADDRESS", about, type=_address)
     declare(parser, "--dry-run", "report the number of scenes, the time and the disk space")
     about = "also draw the results: .png, .svg, .pdf"
     declare(parser, "--figure FILE", about, type=arguments.file(*arguments.PICTURES))
+
+
+def _address(text: str) -> str:
+    """Return the address of a scheduler, with its port."""
+    if not re.fullmatch(r"((tcp|tls|ucx|wss?)://)?(\[[\da-fA-F:]+\]|[^:/\s]+):\d+", text):
+        raise ArgumentTypeError(f'"{shown(text)}" is not an address such as tcp://host:8786')
+    return text
 
 
 def execute(options: Options) -> Answer:
     """Run a study, or estimate its cost."""
     from wear.studies.run import prepare, run
 
-    faults = arguments.read(options)
-    faults.stop_if_any()
-    workers = int(options.workers or processes.cores())
+    arguments.read(options).stop_if_any()
+    workers = options.workers or processes.cores()
     request = prepare(
-        options.scene, options.vary, options.cycles, options.design, int(options.samples),
-        int(options.seed), options.until_wear, options.rtol,
+        options.scene, options.vary, options.cycles, options.design, options.samples,
+        options.seed, options.until_wear, options.rtol,
     )  # fmt: skip
     if options.dry_run:
         return _dry_run(request, workers)
@@ -83,9 +92,7 @@ def execute(options: Options) -> Answer:
         store = run(request, Path(options.output), executor, tell)
     results = store.dataset()
     notices = results.attrs["notices"]
-    if options.strict:
-        arguments.refuse_implausible(notices, faults)
-        faults.stop_if_any()
+    arguments.refused(notices, options).stop_if_any()
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
