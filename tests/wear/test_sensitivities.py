@@ -341,6 +341,25 @@ def test_a_number_without_influence_is_refused_with_a_remedy() -> None:
         gradients([load_scene("section4")], ["pin.hardness_MPa", "load.periods"], CYCLES)
 
 
+def test_an_error_of_the_density_at_the_start_of_a_panel_is_in_the_estimate() -> None:
+    """There the residual of Abel's equation is small, but its derivative is not."""
+    changes = {
+        "bearing.wear_coefficient": 3.948443764989774e-08,
+        "bearing.roughness_growth": 0.15005841515030868,
+        "bearing.roughness_mm": 0.0001341768439980165,
+        "pin.wear_coefficient": 2.302549584653459e-06,
+        "pin.roughness_growth": 0.128333121349012,
+        "contact.closure_in_sigma": 3.130684795430297,
+        "contact.max_pressure_MPa": 314.8172761578739,
+        "load.amplitude_mm": 0.00013527360098320877,
+    }
+    scene, cycles = load_scene("section5").with_(changes), [20, 100, 9000]
+    found, reference = sensitivity(scene, cycles), sensitivity(scene, cycles, rtol=1e-13)
+    error = np.abs(found.derivative - reference.derivative)
+    assert np.all(error <= found.error + reference.error)
+    assert np.all(found.elasticity_error <= 1e-9)
+
+
 def test_where_increments_are_a_series_their_derivatives_are_one_too(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -286,16 +286,19 @@ def _tabulated(
 
 def _added(
     iterates: TabulatedIterates, run: MapDerivatives, limit: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[FloatArray, ...]:
     """Return the increments of z, and of dz/dp - its value for du/dp = `limit`, for cycles from the
-    nodes and the CHECKS of each panel, with the error of the latter; `limit` is (parameters,)."""
+    nodes and the CHECKS of each panel, with the derivative of their map and the error, as of
+    `SumIncrements`; `limit` is (parameters,)."""
     panels, coordinate, t = iterates.panels, iterates.coordinate, _positions(iterates)
     z, at = panels.frame.states(t), _resolved(iterates, t)
     near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
     increment = step(coordinate.ahead, at, run.increment.reshape(z.shape)) / near
-    into_z = (near / coordinate.rate(z + increment, np.ones(1)))[..., None]
+    one, after = np.ones(1), coordinate.rate(z + increment, np.ones(1))
+    into_z = (near / after)[..., None]
+    multiplier = (1.0 + run.tangent[:, 0].reshape(z.shape)) * coordinate.rate(z, one) / after
     change, error = (x[:, 1:].reshape(*z.shape, -1) for x in run.along(limit))
-    return increment, into_z * change, SAFETY * into_z * error
+    return increment, into_z * change, multiplier, SAFETY * into_z * error
 
 
 def _beside(equation: ParametrisedEquation, coordinate: Coordinate) -> FloatArray:

@@ -197,10 +197,12 @@ def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArra
 
 class SumIncrements(NamedTuple):
     """Cycles from some positions of panels: the increments of the state (panels, n), and of k
-    derivatives of it, `change` (panels, n, k), with their `error`."""
+    derivatives of it, `change` (panels, n, k), with their `error`; and the derivative dP/du of the
+    period map, `multiplier` (panels, n)."""
 
     increment: FloatArray
     change: FloatArray
+    multiplier: FloatArray
     error: FloatArray | float = 0.0
 
 
@@ -222,12 +224,18 @@ def sum_per_cycle(panels: Panels, cycles: SumIncrements) -> FloatArray:
 
 def sum_residual(
     panels: Panels, t: FloatArray, cycles: SumIncrements, series: FloatArray
-) -> FloatArray:
+) -> tuple[FloatArray, FloatArray]:
     """Return the error (panels, n, k) of S(P(u)) - S(u) for the `cycles` from the positions `t`
-    (n,) of each panel, for S with the coefficients `series` (panels, m, k) of dS/dn."""
+    (n,) of each panel, for S with the coefficients `series` (panels, m, k) of dS/dn; and the
+    relative error (panels, n) of dn/du in a cycle, by dP/du.
+
+    The residual of Abel's equation may be small and its derivative large: at the ends of a panel.
+    """
     slope, after = _sums_from(panels, t, cycles.increment, gauss(ACROSS_JUDGED))
-    result: FloatArray = np.abs(slope @ series - after * cycles.change) + after * cycles.error
-    return result
+    error: FloatArray = np.abs(slope @ series - after * cycles.change) + after * cycles.error
+    level, shape = level_and_shape(panels.series)
+    before = level * np.exp(shape @ chebyshev_values(t, shape.shape[1]).T)
+    return error, np.abs(after[..., 0] * cycles.multiplier / before - 1.0)
 
 
 def _sums_from(

@@ -255,7 +255,7 @@ def sums_on_cells(
     assert panels is not None
     assert table is not None
     series = abel.sum_per_cycle(panels, nodes)
-    residual = abel.sum_residual(panels, CHECKS, checks, series)
+    residual, of_density = abel.sum_residual(panels, CHECKS, checks, series)
 
     density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
     density = density * gauss(NODES).weights
@@ -263,13 +263,18 @@ def sums_on_cells(
     size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
     panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
     frame, ends = take(panels.frame, panel), np.column_stack([table.u, table.ends])
-    worst = near_checks(residual[panel], frame.positions(ends)).max(axis=1)
+    t = frame.positions(ends)
+    worst = near_checks(residual[panel], t).max(axis=1)
+    # It is the derivative of a small residual along the orbit, whose sum over many cycles is small.
+    of_density = near_checks(of_density[panel], t).max(axis=1) * np.minimum(table.gain, 1.0)
     of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
     lost = SAFETY * (worst * table.gain[:, None] + of_count * size_of)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
     shape = (len(start), -1, start.shape[1])
     sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
-    errors = np.concatenate([first * start_error[:, None], lost.reshape(shape)], axis=1)
+    size = np.concatenate([np.abs(first * start[:, None]), size_of.reshape(shape)], axis=1)
+    lost = lost.reshape(shape) + of_density.reshape(*shape[:2], 1) * size.cumsum(axis=1)[:, :-1]
+    errors = np.concatenate([first * start_error[:, None], lost], axis=1)
     return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
@@ -278,7 +283,7 @@ def _added(
 ) -> abel.SumIncrements:
     """Return the increments of the cycles `run` from the positions `t` (n,) of each panel."""
     derivatives = map_derivatives(maps, panels.frame.states(t), run)
-    return abel.SumIncrements(run.increment, derivatives.by_parameters)
+    return abel.SumIncrements(run.increment, derivatives.by_parameters, derivatives.multiplier)
 
 
 def _at_cells(
