@@ -1,4 +1,4 @@
-"""What the figures draw: arrays with names. No matplotlib here."""
+"""The data of the figures: arrays with names. No matplotlib here."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 PHASES = 800  # of a cycle, besides the peaks of the load
 _SECONDS_PER_HOUR = 3600.0
 _MILLIMETRES_PER_METRE = 1e3
-_MEASURED = 6  # family of readings that are of no run
+_MEASURED = 6  # family of readings that belong to no run
 
 
 @dataclass(frozen=True)
 class Line:
     """One curve: `name` may hold mathtext, `x` and `y` are of one shape (n,).
 
-    Lines of one `family` share colour and marker, `variant` sets them apart by dash (with the
-    cutoff, say, or an asymptote).
+    Lines of one `family` share colour and marker; `variant` distinguishes them by dash (with loss
+    of contact, or an asymptote).
     """
 
     name: str
@@ -43,7 +43,7 @@ class Line:
     variant: int = 0
 
     def where(self, shown: NDArray[np.bool_]) -> Line:
-        """Return the part that is shown (n,), by a logarithmic axis say."""
+        """Return the points that are shown (n,), on a logarithmic axis for instance."""
         return replace(self, x=self.x[shown], y=self.y[shown])
 
 
@@ -56,8 +56,8 @@ class Curve(NamedTuple):
 
 
 class Quantity(NamedTuple):
-    """What a pair of axes shows: its label, how many units of the figure make one of ours, and the
-    columns of a history that are of this kind."""
+    """The quantity of a pair of axes: its label, the `scale` from our unit to that of the figure,
+    and the columns of a history of this kind."""
 
     label: str
     scale: float
@@ -81,13 +81,13 @@ PRESSURE = Quantity(
     ),
 )  # fmt: skip
 CONTACT = Quantity("Fraction in contact", 1.0, (Curve("contact_fraction", "in contact", 5),))
-_PLAIN = ("bearing", "in contact")  # go without saying where a run is named
+_PLAIN = ("bearing", "in contact")  # omitted from the names of lines of several runs
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One pair of axes: lines of a quantity, beside them `points` that were measured, thin lines
-    `behind` them that they tend to, and a value that is not to be exceeded, the `limit`."""
+    """One pair of axes: lines of a quantity, measured `points`, thin lines `behind` them (their
+    asymptotes), and the `limit`, a value not to be exceeded."""
 
     quantity: Quantity
     lines: tuple[Line, ...]
@@ -97,14 +97,14 @@ class Panel:
 
 
 class Abscissa(Enum):
-    """What the states of a run are drawn against, and how it is labelled."""
+    """The abscissa of the states of a run, with its label."""
 
     CYCLES = r"Cycles  $t/T$"
     HOURS = "Running time  (h)"
     DISTANCE = "Sliding distance  (m)"
 
     def of(self, scene: Scene, cycles: FloatArray) -> FloatArray:
-        """Return where numbers of cycles (n,) lie."""
+        """Return the abscissae of numbers of cycles (n,)."""
         if self is Abscissa.CYCLES:
             return cycles
         load = scene.load
@@ -124,11 +124,11 @@ def panels_of(
     names: Sequence[str] = ("",),
     abscissa: Abscissa = Abscissa.CYCLES,
 ) -> tuple[Panel, ...]:
-    """Return wear, roughness, pressure, and where contact is lost the fraction in contact.
+    """Return panels of wear, roughness, pressure and, where contact is lost, the contact fraction.
 
-    Of one run each quantity has its colour; of several each run has, and the quantities of a panel
-    differ by dash. What a variant does not have is left out, of several runs also the pressure at
-    the start of a cycle.
+    For one run each quantity has its colour; for several runs each run has one, and the quantities
+    of a panel differ by dash. Quantities that a variant does not have are left out, for several
+    runs also the pressure at the start of a cycle.
     """
     several = len(histories) > 1
     panels = []
@@ -150,7 +150,7 @@ def panels_of(
 
 
 def _curves(history: History, quantity: Quantity) -> Iterator[tuple[Curve, FloatArray]]:
-    """Yield the columns that the variant has, contact only where it is lost."""
+    """Yield the columns of the variant; the contact fraction only where contact is lost."""
     columns = history.columns()
     trivial = 1.0 if quantity is CONTACT else 0.0
     for place, curve in enumerate(quantity.curves):
@@ -178,14 +178,14 @@ def points_of(
 
 
 def spans_decades(lines: Sequence[Line]) -> bool:
-    """Return whether all values after the fresh state are positive and span two decades or more."""
+    """Return whether all values after the initial state are positive and span two decades."""
     values = np.concatenate([line.y[line.x > 0.0] for line in lines])
     return bool(values.min() > 0.0 and values.max() >= 100.0 * values.min())
 
 
 def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> list[Line]:
-    """Contact pressure (MPa) over the phase of the cycles that begin after so many `cycles`, a line
-    each, by rising numbers.
+    """Return the contact pressure (MPa) over the phase of the cycles that begin after `cycles`, a
+    line for each in ascending order.
 
     Raises
     ------
@@ -219,8 +219,8 @@ def name_of(cycles: float) -> str:
 
 
 @dataclass(frozen=True)
-class Method:
-    """Time of one method against its true error or the number of cycles: arrays of shape (n,).
+class TimingCurve:
+    """Time of a method against its true error or the number of cycles: arrays of shape (n,).
 
     `failed` marks runs that missed their tolerance, or were not made; they are drawn hollow.
     """

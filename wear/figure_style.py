@@ -1,13 +1,13 @@
-"""How every figure looks, and how it becomes a file.
+"""The style of all figures, and their files.
 
 Overview
     Figures are matplotlib `Figure` objects without pyplot: nothing global is opened or changed.
     The settings hold only inside `styled`, which every drawing function enters by itself.
 Legibility
-    Colours are those of Okabe and Ito, which the colour-blind tell apart, orange and sky blue
-    darker: every line has a contrast of at least three to white and to the page in dark mode. Lines
-    also differ in marker and dash, so that they survive grey print. Ink is pure black and paper
-    pure white or transparent: the page replaces both in dark mode.
+    Colours are those of Okabe and Ito, which colour-blind readers can distinguish, with orange and
+    sky blue darker: every line has a contrast of at least three to white and to the page in dark
+    mode. Lines also differ in marker and dash, so that grey print keeps them apart. Ink is pure
+    black and paper pure white or transparent: the page replaces both in dark mode.
 Files
     SVG has its text as paths, since no reader can be expected to have the fonts; PDF embeds them.
     Both are the same to the byte from run to run.
@@ -57,7 +57,7 @@ _FORMATS: Mapping[str, dict[str, Any]] = {
 
 
 Stroke = dict[str, Any]
-"""How a line is drawn: its color, linestyle, marker and markerfacecolor, as matplotlib has them."""
+"""The style of a line: matplotlib's color, linestyle, marker and markerfacecolor."""
 
 _FAMILIES: tuple[tuple[str, str], ...] = (
     ("#0072B2", "o"),
@@ -72,8 +72,8 @@ _DASHES: tuple[LineStyleType, ...] = ("-", (0, (5.0, 2.0)), (0, (1.0, 1.5)))
 
 
 def stroke(family: int, variant: int = 0) -> Stroke:
-    """Colour and marker by family (seven, then again), dash by variant (solid, dashed, dotted);
-    the markers of variants are hollow."""
+    """Return the colour and marker of a family (seven, then again) and the dash of a variant
+    (solid, dashed, dotted); the markers of variants are hollow."""
     colour, marker = _FAMILIES[family % len(_FAMILIES)]
     dash, face = _DASHES[variant % len(_DASHES)], PAPER if variant else colour
     return {"color": colour, "linestyle": dash, "marker": marker, "markerfacecolor": face}
@@ -81,7 +81,7 @@ def stroke(family: int, variant: int = 0) -> Stroke:
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """The settings of ``wear.mplstyle``, until the block ends."""
+    """Apply the settings of ``wear.mplstyle`` until the block ends."""
     with mpl.rc_context(_SETTINGS):
         yield
 
@@ -122,7 +122,7 @@ def label_ends(axes: Axes, ends: Sequence[tuple[float, str, Stroke]]) -> None:
 
 
 def label_above(axes: Axes, name: str, at: tuple[float, float], gap: float) -> None:
-    """Write a name above a point, so many points of type away, on a halo of paper."""
+    """Write a name above a point, with a `gap` in points of type, on a halo of paper."""
     axes.annotate(
         name, at, xytext=(0.0, gap), textcoords="offset points", ha="center", va="bottom",
         path_effects=[HALO],
@@ -130,7 +130,7 @@ def label_above(axes: Axes, name: str, at: tuple[float, float], gap: float) -> N
 
 
 def spread(heights: FloatArray, gap: float) -> FloatArray:
-    """The nearest positions (least squares) at least `gap` apart, moved into [0, 1] if they fit.
+    """Return the nearest positions (least squares) at least `gap` apart, in [0, 1] if they fit.
 
     `heights` has shape (n,) and increases.
 
@@ -145,7 +145,7 @@ def spread(heights: FloatArray, gap: float) -> FloatArray:
 def _settle(figure: Figure) -> None:
     """Lay the figure out once for all files: each drawing would move the axes a little more.
 
-    With ``"none"`` a place holder would stay, for which every file is drawn twice.
+    The layout engine ``"none"`` would leave a placeholder, for which every file is drawn twice.
     """
     if (layout := figure.get_layout_engine()) is not None:
         layout.execute(figure)

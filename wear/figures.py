@@ -6,7 +6,7 @@ Overview
     speed_against_error     time against true error, one line a method
     speed_against_cycles    time against the number of cycles, one line a method
     tornado                 elasticities as bars, the largest on top
-    plot, plot_pressure     one's own runs, and the pressure inside their cycles
+    plot, plot_pressure     a user's runs, and the pressure inside their cycles
     Each returns a matplotlib `Figure`; `wear.figure_style` makes files of it.
 Units
     Lengths come in mm and are shown in micrometres, pressures in MPa, times in s.
@@ -27,8 +27,8 @@ from wear.figure_data import (
     PRESSURE,
     Abscissa,
     Line,
-    Method,
     Panel,
+    TimingCurve,
     name_of,
     panels_of,
     pressure_inside,
@@ -88,11 +88,11 @@ def history(
     abscissa: Abscissa = Abscissa.CYCLES,
     logarithmic: bool = False,
 ) -> Figure:
-    """Panels one above the other, lengths in mm and pressures in MPa, along one abscissa.
+    """Draw panels one above the other, lengths in mm and pressures in MPa, along one abscissa.
 
-    If that is logarithmic, what grows by decades has a logarithmic axis too: as a power of the
-    cycles it is then a straight line, not one that is flat but for its end. Pressures that fall by
-    decades have one always, without those that are zero.
+    If that is logarithmic, quantities that grow by decades have a logarithmic axis too: powers of
+    the cycles are then straight lines. Pressures that fall by decades always have one, without the
+    zero pressures.
     """
     height = 0.66 if len(shown) == 1 else 0.44 * len(shown)
     with styled():
@@ -118,7 +118,7 @@ def history(
 
 
 def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
-    """Contact pressure in MPa over the phase in [0, 1] of chosen cycles, one line a cycle, named
+    """Draw the contact pressure in MPa over the phase in [0, 1] of cycles, a line for each, named
     beside the axes at the height of its peak as far as there is room."""
     with styled():
         figure, axes = canvas(COLUMN, 0.6 * COLUMN)
@@ -129,23 +129,23 @@ def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
     return figure
 
 
-def speed_against_error(methods: Sequence[Method]) -> Figure:
+def speed_against_error(methods: Sequence[TimingCurve]) -> Figure:
     """Draw seconds against true relative error, both logarithmic; accuracy grows to the right."""
     figure = _speed(methods, "True relative error of the wear", "missed its tolerance")
     figure.axes[0].invert_xaxis()
     return figure
 
 
-def speed_against_cycles(methods: Sequence[Method]) -> Figure:
+def speed_against_cycles(methods: Sequence[TimingCurve]) -> Figure:
     """Draw seconds to equal true error against the number of cycles, both logarithmic."""
     return _speed(methods, "Cycles  $N$", "expected, not run")
 
 
-def _speed(methods: Sequence[Method], quantity: str, failed: str) -> Figure:
+def _speed(methods: Sequence[TimingCurve], quantity: str, failed: str) -> Figure:
     with styled():
         figure, axes = canvas(PAGE, 0.5 * PAGE)
         for family, method in enumerate(methods):
-            again = family // 7  # colours come again, with another marker
+            again = family // 7  # colours repeat, with another marker
             dash, mark = stroke(0, again)["linestyle"], stroke(family + 2 * again)["marker"]
             look = stroke(family) | {"linestyle": dash, "marker": mark}
             axes.loglog(method.x, method.seconds, linewidth=0.9, label=method.name, **look)
@@ -161,8 +161,8 @@ def _speed(methods: Sequence[Method], quantity: str, failed: str) -> Figure:
 
 
 def tornado(keys: Sequence[str], elasticity: FloatArray, cycles: Sequence[int]) -> Figure:
-    """Elasticities (k, n) of the numbers with these keys as bars, the largest on top; a set of bars
-    for each of the n numbers of cycles. What is no number has no bar."""
+    """Draw the elasticities (k, n) of the numbers with these keys as bars, the largest on top, a
+    set of bars for each of the n numbers of cycles. NaN has no bar."""
     values = np.nan_to_num(elasticity)
     order = np.argsort(np.max(np.abs(values), axis=1))
     thick = 0.8 / len(cycles)
@@ -212,7 +212,7 @@ def _plot(axes: Axes, line: Line, scale: float, **style: Any) -> None:
 
 
 def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
-    """Lines with a few markers each, shifted from line to line so that they do not coincide."""
+    """Draw lines with a few markers each, shifted from line to line so that none coincide."""
     for position, line in enumerate(lines):
         start = _MARK_EVERY * (position + 0.5) / len(lines)
         _plot(axes, line, scale, markevery=(start, _MARK_EVERY), clip_on=False)

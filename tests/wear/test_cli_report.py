@@ -15,7 +15,7 @@ from wear import solve
 from wear.cli import main
 from wear.load import Block, Blocks, Sine
 from wear.report import own, publish
-from wear.report.document import Figure
+from wear.report.document import FigureFiles
 from wear.report.text import inline
 from wear.scene import load_scene
 
@@ -23,7 +23,7 @@ from wear.scene import load_scene
 @pytest.fixture
 def undrawn(monkeypatch):
     """Figures are named, not drawn."""
-    none = Figure("", b"")
+    none = FigureFiles("", b"")
     monkeypatch.setattr(own, "drawn", lambda drawings: {f"fig:{name}": none for name in drawings})
 
 

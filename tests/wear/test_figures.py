@@ -19,8 +19,8 @@ from wear.figure_data import (
     WEAR,
     Abscissa,
     Line,
-    Method,
     Panel,
+    TimingCurve,
     panels_of,
     pressure_inside,
 )
@@ -45,11 +45,11 @@ def _wear(**options: Any) -> Figure:
     return figures.history([Panel(WEAR, _lines())], **options)
 
 
-def _methods() -> list[Method]:
+def _methods() -> list[TimingCurve]:
     error = np.array([1e-3, 1e-9, 1e-16])
     missed = np.array([True, False, False])
     return [
-        Method(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
+        TimingCurve(f"method {i}", error * (i + 1), np.array([1.0, 2.0, 3.0]) * 2.0**i, missed)
         for i in range(9)
     ]
 

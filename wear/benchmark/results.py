@@ -15,7 +15,7 @@ import numpy as np
 
 from wear.benchmark import Measurement, StartUp, Status
 from wear.benchmark.machine import footer
-from wear.figure_data import Method
+from wear.figure_data import TimingCurve
 from wear.quantities import in_short
 
 Row = TypeVar("Row")
@@ -145,12 +145,12 @@ def comparable(runs: Sequence[Measurement], scene: str) -> dict[int, list[Measur
     }
 
 
-def curves(runs: Sequence[Measurement]) -> list[Method]:
+def curves(runs: Sequence[Measurement]) -> list[TimingCurve]:
     """Return the runs of one case that took place, by method and rising tolerance; errors of zero
     are shown at the resolution of double precision."""
     shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
     return [
-        Method(
+        TimingCurve(
             name,
             np.array([max(abs(run.error), LEAST) for run in own]),
             np.array([run.seconds for run in own]),
@@ -161,7 +161,7 @@ def curves(runs: Sequence[Measurement]) -> list[Method]:
     ]
 
 
-def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[Method]:
+def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[TimingCurve]:
     """Return each method's time to so many digits against the number of cycles, with what the next
     number that it was not given time for was expected to take."""
     made = []
@@ -174,7 +174,7 @@ def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> li
             elif waits and points:
                 points.append((cycles, min(waits), True))
         if points:
-            made.append(Method(name, *map(np.array, zip(*points, strict=True))))
+            made.append(TimingCurve(name, *map(np.array, zip(*points, strict=True))))
     return made
 
 

@@ -2,10 +2,10 @@
 
 Overview
     Claims that mathematics decides are checked in ``derive.note.claim_checks``; here are those
-    that need the note's scenes and their solution.  A check solves what the note solved and
-    compares with what it prints.
+    that need the note's scenes and their solution.  A check solves the note's problem and compares
+    the result with the printed one.
 Key results
-    decided          a claim, decided
+    decided          the decision of a claim
     as_json          the ledger as the command prints it
 """
 
@@ -53,7 +53,7 @@ def _initial_closure(name: str, printed: float, digits: int) -> Finding:
 
 
 def two_stages() -> Finding:
-    """C17: whether the rate of Fig. 2 levels off."""
+    """Decide C17: whether the rate of Fig. 2 levels off."""
     cycles = (100, 1000, 4500, 9000)
     steps = note.increments_after(note.scene("section3"), *cycles)
     still = steps[3] / steps[2]
@@ -71,7 +71,7 @@ def two_stages() -> Finding:
 
 
 def stabilised_after() -> Finding:
-    """C34: the note's criterion at its number of cycles."""
+    """Decide C34: the note's criterion at its number of cycles."""
     (step,) = note.increments_after(note.scene("section4"), PRINTED.cycles)
     distance = step / _limit("section4") - 1.0
     needed = note.limit("section4").cycles_to_stabilise
@@ -87,16 +87,16 @@ def stabilised_after() -> Finding:
     )
 
 
-def _as_printed(found: float, printed: float) -> bool:
+def _as_printed(computed: float, printed: float) -> bool:
     """Return whether a number rounds to one printed with three digits."""
-    return f"{found:.2e}" == f"{printed:.2e}"
+    return f"{computed:.2e}" == f"{printed:.2e}"
 
 
 def simulated_wear() -> Finding:
-    """C35."""
-    (found,) = note.increments_after(note.scene("section4"), PRINTED.cycles)
-    met = _as_printed(found, PRINTED.simulated_mm)
-    evidence = f"the solution gives {found:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
+    """Decide C35: the simulated wear per cycle."""
+    (wear,) = note.increments_after(note.scene("section4"), PRINTED.cycles)
+    met = _as_printed(wear, PRINTED.simulated_mm)
+    evidence = f"the solution gives {wear:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
     slope = f"which it would give with f_c = {note.slope_for_simulation():.8g} (see C36)"
@@ -104,12 +104,12 @@ def simulated_wear() -> Finding:
 
 
 def formula_wear() -> Finding:
-    """C36."""
-    found = _limit("section4")
-    met = _as_printed(found, PRINTED.formula_mm)
+    """Decide C36: the wear per cycle by (21)."""
+    wear = _limit("section4")
+    met = _as_printed(wear, PRINTED.formula_mm)
     evidence = (
-        f"(21) gives {found:.11e} mm, printed {PRINTED.formula_mm:.2e} mm, "
-        f"{PRINTED.formula_mm / found:.3f} times as much"
+        f"(21) gives {wear:.11e} mm, printed {PRINTED.formula_mm:.2e} mm, "
+        f"{PRINTED.formula_mm / wear:.3f} times as much"
     )
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
@@ -121,7 +121,7 @@ def formula_wear() -> Finding:
 
 
 def efficiency() -> Finding:
-    """C37: simulation and formula at the same cycle, and how they converge."""
+    """Decide C37: simulation and formula at the same cycle, and their convergence."""
     cycles = (PRINTED.cycles, 10**6, 10**8)
     limit, drift = _limit("section4"), note.limit("section4").log_coefficient_mm or 0.0
     steps = note.increments_after(note.scene("section4"), *cycles)
@@ -137,7 +137,7 @@ def efficiency() -> Finding:
 
 
 def quicker_for_lower_wear() -> Finding:
-    """C38: the order of the scenes of Fig. 3b, by the note's criterion and by an absolute one."""
+    """Decide C38: the order of the scenes of Fig. 3b, by the note's and an absolute criterion."""
     cycles = np.arange(1, 401)
     relative, absolute = [], []
     for name in note.SECTION_5:
@@ -160,7 +160,7 @@ def quicker_for_lower_wear() -> Finding:
 
 
 def data_and_condition() -> Finding:
-    """C40."""
+    """Decide C40: whether the data satisfy the note's condition on f_c."""
     slopes = {name: note.scene(name).bearing.roughness_growth for name in ("section3", "section5")}
     met = all(slope > LEAST_SLOPE for slope in slopes.values())
     shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
@@ -173,7 +173,7 @@ def data_and_condition() -> Finding:
 
 
 def pressure_and_hardness() -> Finding:
-    """C41: a real area of contact, load over hardness, is no more than the nominal one."""
+    """Decide C41: the real area of contact, load over hardness, is at most the nominal one."""
     scene, cycles = note.scene("section4"), (1, 100, PRINTED.cycles)
     most, hardness = scene.contact.max_pressure_MPa, scene.bearing.hardness_MPa
     peaks = solve(scene, cycles, rtol=1e-10).pressures.peak.tolist()
@@ -209,7 +209,7 @@ def decided(identifier: str) -> Entry:
 
 
 def as_json(entries: Sequence[Entry]) -> list[dict[str, str]]:
-    """Return the ledger as the contract has it."""
+    """Return the ledger as `wear claims --json` prints it."""
     return [
         {**claim._asdict(), "verdict": str(finding.verdict), "evidence": finding.evidence}
         for claim, finding in entries

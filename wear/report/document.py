@@ -1,6 +1,7 @@
-"""A report that was read: its text with the equations and figures that it shows, all numbered.
+"""A parsed report: its text with the equations and figures that it shows, all numbered.
 
-Both writers take the numbers from here, so that a label has the same one on the page and in LaTeX.
+Both writers take the numbers from here, so that a label has the same number on the page and in
+LaTeX.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from wear.cite import REFERENCES
 from wear.report.text import Tokens, inline
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Drawing
+    from matplotlib.figure import Figure
 
 OWN_EQUATION = "D.{}"
 """Number of an equation that the note does not have."""
@@ -36,12 +37,12 @@ _NAMES = {
 
 
 @dataclass(frozen=True)
-class Equation:
+class DisplayedEquation:
     """A displayed formula with its title and hypotheses in Markdown.
 
     `status` is one of the statuses of `derive`, `printed` the form in the note where that is not
     the derived one, `macro` the name of its macro in ``equations.tex``; `also` are the ids of
-    equations that say the same, `where` are formulas, a line each, of what its names mean.
+    identical equations, `where` are the definitions of its symbols, a line of formulas each.
     """
 
     id: str
@@ -54,26 +55,26 @@ class Equation:
     where: tuple[str, ...] = ()
 
 
-class Figure(NamedTuple):
+class FigureFiles(NamedTuple):
     """A drawing for pages and for LaTeX."""
 
     svg: str
     pdf: bytes
 
 
-def drawn(drawings: Mapping[str, Drawing]) -> Mapping[str, Figure]:
+def drawn(drawings: Mapping[str, Figure]) -> Mapping[str, FigureFiles]:
     """Return figures by label; the names are those of the files, too."""
     from wear.figure_style import encoded  # a text without figures needs no matplotlib
 
     return {
-        f"fig:{name}": Figure(encoded(each, ".svg").decode(), encoded(each, ".pdf"))
+        f"fig:{name}": FigureFiles(encoded(each, ".svg").decode(), encoded(each, ".pdf"))
         for name, each in drawings.items()
     }
 
 
 @dataclass(frozen=True)
 class Mark:
-    """What stands for a label in the text, and the label that a link leads to."""
+    """The kind and number of a label in the text, and the label that its link leads to."""
 
     kind: str
     number: str
@@ -81,14 +82,14 @@ class Mark:
 
     @property
     def bare(self) -> str:
-        """The number alone, as it stands in a list of references."""
+        """Return the number alone, for a list of references."""
         if self.kind == "equation":
             return f"({self.number})"
         return self.name if self.kind == "work" else self.number
 
     @property
     def name(self) -> str:
-        """The words of a reference, with no-break spaces.
+        """Return the words of a reference, with no-break spaces.
 
         >>> Mark("equation", "8", "eq:8").name.replace(chr(0xa0), " ")
         'Eq. (8)'
@@ -101,42 +102,42 @@ class Document:
     """A text, as tokens, with all equations (by id) and figures (by label) that it may show."""
 
     tokens: Tokens
-    equations: Mapping[str, Equation]
-    figures: Mapping[str, Figure]
+    equations: Mapping[str, DisplayedEquation]
+    figures: Mapping[str, FigureFiles]
 
     @property
     def title(self) -> str:
-        """The heading of the first level."""
+        """Return the heading of the first level."""
         return next(b.content for a, b in pairwise(self.tokens) if a.tag == "h1")
 
     @property
     def contents(self) -> Iterator[tuple[Mark, list[Token], int]]:
-        """The mark, title and level of every section, derivations left out."""
+        """Yield the mark, title and level of every section except derivations."""
         for heading, title in pairwise(self.tokens):
             mark = self.marks.get(heading.meta.get("label", ""))
             if heading.type == "heading_open" and mark and mark.kind != "derivation":
                 yield mark, title.children or [], int(heading.tag[1])
 
     @property
-    def shown(self) -> Iterator[Equation]:
-        """The equations that the text shows, in reading order."""
+    def shown(self) -> Iterator[DisplayedEquation]:
+        """Yield the equations that the text shows, in reading order."""
         for token in self.tokens:
             if token.type == "fence" and token.info == "equations":
                 yield from (self.equations[identifier] for identifier in token.content.split())
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:
-        """The mark of every label.
+        """Return the mark of every label.
 
         Raises
         ------
         ValueError
-            with all faults at once: labels used twice, equations shown twice, references to what
-            is not there.
+            with all faults at once: labels used twice, equations shown twice, references to
+            unknown labels.
         """
-        found = list(self._marks())
-        marks = {mark.target: mark for mark in found}
-        for mark in found:
+        given = list(self._marks())
+        marks = {mark.target: mark for mark in given}
+        for mark in given:
             if mark.kind == "derivation":
                 derived = marks[f"eq:{mark.number}"]
                 marks[mark.target] = Mark(mark.kind, derived.number, mark.target)
@@ -144,29 +145,29 @@ class Document:
             for other in equation.also:
                 label = f"eq:{other}"
                 marks[label] = Mark("equation", _own(other, marks, equation), f"eq:{equation.id}")
-        twice = [label for label, n in Counter(mark.target for mark in found).items() if n > 1]
+        twice = [label for label, n in Counter(mark.target for mark in given).items() if n > 1]
         faults = [f"{label!r} is used more than once" for label in twice]
         faults += [
             f"no {label!r} to refer to" for label in self._references() if label not in marks
         ]
         if faults:
-            raise ValueError("the document does not hold together:\n  " + "\n  ".join(faults))
+            raise ValueError("the references of the document fail:\n  " + "\n  ".join(faults))
         return marks
 
     @cached_property
     def works(self) -> tuple[str, ...]:
-        """The keys of the works that the text cites, in that order."""
+        """Return the keys of the works in the order in which the text cites them."""
         cited = (label for label in self._references() if label.startswith("ref:"))
         return tuple(dict.fromkeys(label.removeprefix("ref:") for label in cited))
 
     @cached_property
     def mentions(self) -> Mapping[str, tuple[str, ...]]:
-        """For every equation its derivation and the claims that refer to it."""
-        found: dict[str, dict[str, None]] = {}
+        """Return for every equation its derivation and the claims that refer to it."""
+        sources: dict[str, dict[str, None]] = {}
         for where, label in self._places():
             if where and label.startswith("eq:") and label in self.marks:
-                found.setdefault(self.marks[label].target, {})[where] = None
-        return {label: tuple(sources) for label, sources in found.items()}
+                sources.setdefault(self.marks[label].target, {})[where] = None
+        return {label: tuple(labels) for label, labels in sources.items()}
 
     def _references(self) -> Iterator[str]:
         for token in inline(self.tokens):
@@ -174,7 +175,7 @@ class Document:
                 yield token.content
 
     def _places(self) -> Iterator[tuple[str, str]]:
-        """What stands where: the derivation or claim around each reference, and its label."""
+        """Yield the derivation or claim around each reference, and the label of the reference."""
         where = ""
         for token in self.tokens:
             if token.type in ("heading_open", "tr_close", "table_close"):
@@ -210,8 +211,8 @@ class Document:
                 yield Mark("work", str(place), f"ref:{key}")
 
 
-def _own(identifier: str, marks: Mapping[str, Mark], same: Equation) -> str:
-    """The number of an equation that says the same as one that is shown."""
+def _own(identifier: str, marks: Mapping[str, Mark], same: DisplayedEquation) -> str:
+    """Return the number of an equation that is identical to one that is shown."""
     return identifier if _NOTE.fullmatch(identifier) else marks[f"eq:{same.id}"].number
 
 
@@ -224,7 +225,7 @@ def _next(kind: str, label: str, counts: Counter[str], number: str = "") -> Mark
 
 
 def _heading(token: Token, counts: Counter[str]) -> Mark:
-    """The mark of a heading: 1, 1.1, A, A.1, or that of the equation derived below it."""
+    """Return the mark of a heading: 1, 1.1, A, A.1, or that of the equation derived below it."""
     label = str(token.meta["label"])
     kind = _KINDS[label.partition(":")[0]]
     if kind == "derivation":

@@ -23,7 +23,7 @@ _TOP = 6.6
 
 
 def system() -> Figure:
-    """The drawing, as wide as a column."""
+    """Draw the system, as wide as a column."""
     middle, side = (_LEFT + _RIGHT) / 2.0, _RIGHT + 0.5
     between, under = (_PIN + _BEARING) / 2.0, (_SPRINGS + _GROUND) / 2.0
     bearing, pin = stroke(0)["color"], stroke(1)["color"]
@@ -60,7 +60,7 @@ def system() -> Figure:
 
 
 def of_scene(scene: Scene) -> Figure:
-    """The rough surfaces before any wear, heights to scale, and the path of the pin above them."""
+    """Draw the rough surfaces before any wear, heights to scale, and the path of the pin."""
     sigma_c, closure = scene.bearing.roughness_mm * WEAR.scale, scene.closure * WEAR.scale
     sigma_a = scene.pin.roughness_mm * WEAR.scale if scene.pin is not None else 0.0
     x, waves = _profile(1.1, 0.0)
@@ -93,7 +93,7 @@ def of_scene(scene: Scene) -> Figure:
 
 
 def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.float64]]], str]:
-    """Displacements (um) of each load over the phase of its period, or over time (s)."""
+    """Return the displacements (um) of each load over the phase of its period, or over time (s)."""
     load = scene.load
     if isinstance(load, HistoryLoad):
         times = np.asarray(load.times_s)
@@ -105,7 +105,7 @@ def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A surface that looks rough: a few incommensurable waves, the same in every run."""
+    """Return a rough profile: a few incommensurable waves, the same in every run."""
     x = np.linspace(_LEFT, _RIGHT, 241)
     waves = ((0.055, 7.3), (0.045, 13.1), (0.035, 23.7), (0.02, 41.0))
     rough = np.sum([a * np.sin(w * x + seed * w) for a, w in waves], axis=0)

@@ -1,4 +1,4 @@
-"""The equations of the catalogue as a report shows them, and how they were derived."""
+"""The equations of the catalogue as a report shows them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from derive.hypotheses import Hypothesis
 from derive.kernel import listed
 from derive.typeset.formula import width
 from derive.typeset.macros import macro_name
-from wear.report.document import Equation
+from wear.report.document import DisplayedEquation
 from wear.report.markup import markup
 
 #: Width in em up to which a hypothesis is shown as a formula.
@@ -19,7 +19,7 @@ _SHORT = 12.0
 #: Width in em of a line of formulas.
 _LINE = 30.0
 
-#: The settings that the texts of both reports call bearing wear alone.
+#: The settings that both reports call "bearing wear alone".
 _BEARING_ALONE = (
     "no loss of contact", "smooth pin", "no cross coupling of roughness", "unworn pin",
     "rigid support",
@@ -27,8 +27,8 @@ _BEARING_ALONE = (
 _ALONE = "bearing wear alone"
 
 
-def shown(equations: Sequence[derived.Equation]) -> Mapping[str, Equation]:
-    """Return the equations by id, each with the ids of those that say the same."""
+def shown(equations: Sequence[derived.Equation]) -> Mapping[str, DisplayedEquation]:
+    """Return the equations by id, each with the ids of identical ones."""
     same: dict[Hashable, list[str]] = {}
     for equation in equations:
         same.setdefault(_content(equation), []).append(equation.id)
@@ -36,12 +36,12 @@ def shown(equations: Sequence[derived.Equation]) -> Mapping[str, Equation]:
 
 
 def _content(equation: derived.Equation) -> Hashable:
-    """What an equation says, and when."""
+    """Return the content of an equation: its formula and its conditions."""
     return equation.latex, frozenset(equation.conditions)
 
 
-def _shown(equation: derived.Equation, same: Sequence[str]) -> Equation:
-    return Equation(
+def _shown(equation: derived.Equation, same: Sequence[str]) -> DisplayedEquation:
+    return DisplayedEquation(
         id=equation.id,
         latex=equation.latex,
         title=_title(equation),
@@ -54,7 +54,7 @@ def _shown(equation: derived.Equation, same: Sequence[str]) -> Equation:
 
 
 def _lines(formulas: Iterable[str]) -> Iterator[str]:
-    """Join formulas, as many on a line as there is room for."""
+    """Yield lines of joined formulas, each as full as its width allows."""
     line = ""
     for formula in formulas:
         longer = rf"{line}, \quad {formula}" if line else formula
@@ -76,20 +76,20 @@ def capital(text: str) -> str:
 
 
 def _title(equation: derived.Equation) -> str:
-    """What an equation is called, and its hypotheses but for that of the whole paper.
+    """Return the title of an equation with its hypotheses, except those of the whole paper.
 
-    A part of the title that is one of the hypotheses is said once.
+    A part of the title that repeats one of the hypotheses is left out.
     """
     words = [c for c in equation.conditions if c.is_setting]
     conditions = [Hypothesis(abbreviated(c.relation, equation.where)) for c in equation.conditions]
     formulas = [f"${part}$" for c in conditions if _short(c) for part in _parts(c)]
-    said = [markup(c.text) for c in conditions if c not in words and not _short(c)]
+    texts = [markup(c.text) for c in conditions if c not in words and not _short(c)]
     settings = dict.fromkeys(c.text for c in words)
     repeated = {_ALONE, *settings, *(formula.replace(" ", "") for formula in formulas)}
     name, *parts = equation.title.split(", ")
     title = [markup(capital(name))]
     title += [m for p in parts if not {p, (m := markup(p)).replace(" ", "")} & repeated]
-    for word, hypotheses in (("for", formulas), ("if", said)):
+    for word, hypotheses in (("for", formulas), ("if", texts)):
         if hypotheses:
             title.append(f"{word} {listed(hypotheses)}")
     if settings.keys() >= set(_BEARING_ALONE):
@@ -99,7 +99,7 @@ def _title(equation: derived.Equation) -> str:
 
 
 def _short(hypothesis: Hypothesis) -> bool:
-    """Whether a formula says it better than words, or there are none."""
+    """Return whether a hypothesis is shown as a formula: it is short, or has no words."""
     formula = not hypothesis.words or width(hypothesis.latex) < _SHORT
     return formula and not hypothesis.is_setting
 

@@ -1,13 +1,13 @@
-"""The explorer: one page on which the parameters of a scene can be moved.
+"""The explorer: one page with sliders for the parameters of a scene.
 
 Overview
-    The page needs no network and no server.  The model on it is generated from the derivation;
-    how it is integrated stands in ``assets/explorer.solve.js``.  When it loads it computes the
-    wear of some scenes itself and compares it with the values that Python found.
+    The page needs no network and no server.  Its model is generated from the derivation and
+    integrated by ``assets/explorer.solve.js``.  When it loads it computes the wear of some scenes
+    and compares it with the values from Python.
 Key results
-    page            the whole file
-    opened          the scene that it opens at, with no more rows of its load than needed
-    scene_data      a scene in the numbers that the sliders show
+    page            the file of the page
+    opened          the initial scene, with no more rows of its load than needed
+    scene_data      a scene in the numbers of the sliders
     check_data      wear and wear rates of a scene, computed in Python
 """
 
@@ -62,12 +62,11 @@ GROUPS: Mapping[str, Mapping[str, tuple[float, float]]] = {
     "Support": {"k": (10000.0, 10000000.0)},
     "Load and motion": {"U": (1e-05, 0.002), "T": (0.001, 1), "R": (1, 100), "n": (10, 10000.0)},
 }
-"""The parameters of the sliders, and between which values they move."""
+"""The parameters of the sliders, with their ranges."""
 
 
 def page(scene: Scene, specimens: Sequence[Specimen] = ()) -> str:
-    """Return the page, opened at a scene, which must have a load that repeats, with what was
-    measured on `specimens` of it.
+    """Return the page, opened at a scene with a periodic load, with the readings of `specimens`.
 
     Raises
     ------
@@ -115,7 +114,7 @@ def _data(
 
 
 def opened(scene: Scene) -> Scene:
-    """Return a scene whose load has as few rows as a plot needs; its description says so.
+    """Return a scene whose load has as few rows as a plot needs, with a note in its description.
 
     Raises
     ------
@@ -126,12 +125,12 @@ def opened(scene: Scene) -> Scene:
         raise UsageError("the explorer has the contact laws of the package alone")
     fewer = resampled(scene, PLOTTED)
     peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
-    described = " ".join([scene.description, *(f"{said}." for said in fewer.notices), peaks])
+    described = " ".join([scene.description, *(f"{text}." for text in fewer.notices), peaks])
     return replace(fewer.scene, description=described.strip())
 
 
 def scene_data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as the page takes it; what it does not model has the numbers of section 3."""
+    """Return a scene for the page; parameters that it does not model are those of section 3."""
     other = load_scene("section3").parameters() | {"k": 1e5}
     numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
     key = scene.variant
@@ -151,12 +150,12 @@ def scene_data(scene: Scene) -> dict[str, Any]:
 
 
 def _size(load: Load) -> float:
-    """The amplitude of a sine; any other load is multiplied by the number on its slider."""
+    """Return the amplitude of a sine, or 1: the slider multiplies any other load."""
     return load.amplitude_mm if isinstance(load, Sine) else 1.0
 
 
 def _load_data(load: Load) -> dict[str, Any]:
-    """Return the load, its rows over one period if it has any, and where a step must end."""
+    """Return the load, its rows over one period if it has any, and the phases where steps end."""
     if isinstance(load, Sine | Constant | Harmonics):
         stops = (0.25, 0.75) if isinstance(load, Sine) else load.peaks
         return as_table(load) | {"stops": [] if isinstance(load, Constant) else list(stops)}
@@ -180,10 +179,10 @@ def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
     rates = []
     for depth in depths:
         loads = scene.periodic_load(phases)
-        found = model.rate(np.full_like(loads, depth), loads)
+        rate = model.rate(np.full_like(loads, depth), loads)
         if model.ends_at_3_sigma and not model.compliant:
-            found = np.where(model.margin(depth, loads) >= 0.0, found, 0.0)
-        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, found, strict=True)]
+            rate = np.where(model.margin(depth, loads) >= 0.0, rate, 0.0)
+        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, rate, strict=True)]
     return {
         "scene": scene.name,
         "cycles": list(cycles),
@@ -193,12 +192,12 @@ def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
 
 
 def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
-    """Return the check data of the scenes whose wear Python finds to the last digits wanted."""
-    found = []
+    """Return the check data of the scenes whose wear Python computes to the requested accuracy."""
+    checks = []
     for scene in scenes:
         try:
             interrupted = scene.contact.ends_at_3_sigma and scene.support is None
-            found.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
+            checks.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
         except AccuracyError:
             continue
-    return found
+    return checks

@@ -1,13 +1,13 @@
-"""What the explorer's page takes from the derivation, written once into a file beside its scripts.
+"""The derived data of the explorer's page, written once into a file beside its scripts.
 
 Deriving all variants and equations takes ten seconds and more, so ``explorer.derived.json`` is
 committed.  A test fails when it is out of date; ``python -m wear.report.explorer_derived`` writes
 it.
 
 Key results
-    derived           all of it, as the file has it
+    derived           the content of the file
     models            the generated functions of every variant, as JavaScript
-    parameter_rows    what can be moved, from the vocabulary
+    parameter_rows    the parameters of the sliders, from the vocabulary
     rows              the equations as HTML, each with the choices for which it holds
 """
 
@@ -87,17 +87,17 @@ def rows() -> str:
     """Return all equations, in the order of the argument."""
     from derive.catalogue import equation
 
-    found = [_html(*each) for each in _model()]
+    texts = [_html(*row) for row in _model()]
     for title, identifier, holds in _LONG_RUN:
         number = f"({identifier})" if identifier[0].isdigit() else ""
-        found.append(_html(title, equation(identifier).latex, holds, number))
-    return "\n".join(found)
+        texts.append(_html(title, equation(identifier).latex, holds, number))
+    return "\n".join(texts)
 
 
 def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
-    """Return the ids of what holds in the long run for these choices and this regime.
+    """Return the ids of the long-run equations for these choices and this regime.
 
-    Of a contact law of a scene's own, that is what holds for any law.
+    For a contact law given by a formula these are the equations that hold for any law.
     """
     if chosen["law"] not in LAWS:
         chosen = {**chosen, "law": _OTHERS[0]}
@@ -109,7 +109,7 @@ def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
 
 
 def _model() -> Iterator[tuple[str, str, Choices]]:
-    """Yield the equations of all variants: title, LaTeX, and the choices whose model has each."""
+    """Yield the equations of all variants: title, LaTeX, and the choices for which each holds."""
     from derive.variant import VARIANTS
     from derive.variant_equations import equations_of
 
@@ -171,7 +171,7 @@ def models() -> str:
 
 
 def _without_comments(text: str) -> str:
-    """Leave out what readers of the page's source find in `derive code --target javascript`."""
+    """Return code without its comments, which `derive code --target javascript` shows."""
     blocks = re.sub(r"/\*\*.*?\*/\n", "", text, flags=re.DOTALL)
     return re.sub(r"\n{2,}", "\n", re.sub(r" // .*", "", blocks))
 

@@ -5,8 +5,8 @@ Contents
     roughness_of_both       Fig. 2b: their roughness
     wear_and_asymptote      Fig. 3a: section 4 with a line of the slope (21)
     wear_coefficients       Fig. 3b: section 5 for four wear coefficients
-    approach                how rate and pressure approach (21) and (22)
-    wear_curve              section 4 over all decades, with what the note has for it
+    approach                rate and pressure approaching (21) and (22)
+    wear_curve              section 4 over all decades, with the note's asymptotes
     regimes                 the map of regimes with the examples of the note
 """
 
@@ -50,29 +50,29 @@ _REGIMES = {
 
 
 def wear_of_both(runs: Runs) -> Figure:
-    """Fig. 2a, with and without loss of contact."""
+    """Draw Fig. 2a, with and without loss of contact."""
     return figures.history([Panel(WEAR, _both(runs, "u_c", "u_a"))])
 
 
 def roughness_of_both(runs: Runs) -> Figure:
-    """Fig. 2b, with and without loss of contact."""
+    """Draw Fig. 2b, with and without loss of contact."""
     return figures.history([Panel(ROUGHNESS, _both(runs, "sigma_c", "sigma_a"))])
 
 
 def _both(runs: Runs, bearing: str, pin: str) -> tuple[Line, ...]:
-    """A field of both solids of section 3; loss of contact is dashed."""
+    """Return the lines of a field of both solids of section 3; loss of contact is dashed."""
     lines = []
     for variant, name in enumerate(("section3", "section3" + note.CUTOFF)):
         history = runs.histories[name]
         cycles = history.cycles.astype(float)
-        said = ", loss of contact" * variant
-        lines.append(Line(f"bearing{said}", cycles, getattr(history, bearing), 0, variant))
-        lines.append(Line(f"pin{said}", cycles, getattr(history, pin), 1, variant))
+        suffix = ", loss of contact" * variant
+        lines.append(Line(f"bearing{suffix}", cycles, getattr(history, bearing), 0, variant))
+        lines.append(Line(f"pin{suffix}", cycles, getattr(history, pin), 1, variant))
     return tuple(lines)
 
 
 def wear_and_asymptote(runs: Runs) -> Figure:
-    """Fig. 3a: the solution, with and without loss of contact, and a line of the slope (21)."""
+    """Draw Fig. 3a: the solution, with and without loss of contact, and a line of slope (21)."""
     wear = _wear(runs, "section4", "solution", 0, 0)
     stopped = _wear(runs, "section4" + note.CUTOFF, "loss of contact", 0, 1)
     per_cycle = note.required(runs.asymptotes["section4"].wear_per_cycle_mm)
@@ -81,7 +81,7 @@ def wear_and_asymptote(runs: Runs) -> Figure:
 
 
 def wear_coefficients(runs: Runs) -> Figure:
-    """Fig. 3b: four wear coefficients, on an axis of ln N, one with loss of contact."""
+    """Draw Fig. 3b: four wear coefficients, on an axis of ln N, one with loss of contact."""
     lines = []
     for family, name in enumerate(note.SECTION_5):
         power = round(np.log10(runs.histories[name].definition.bearing.wear_coefficient))
@@ -95,40 +95,40 @@ def _wear(runs: Runs, case: str, name: str, family: int, variant: int) -> Line:
     return Line(name, history.cycles.astype(float), history.u_c, family, variant)
 
 
-def approach(found: Approach) -> Figure:
-    """Relative excess of wear per cycle and of pressure over (21) and (22) against cycles."""
+def approach(run: Approach) -> Figure:
+    """Draw the relative excess of wear per cycle and pressure over (21) and (22) against cycles."""
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, 0.55 * COLUMN_AND_HALF)
         law = r"$A/(N u_{\mathrm{cum}})$"
-        axes.loglog(found.cycles, found.predicted, color=GREY, linewidth=0.9, label=law)
+        axes.loglog(run.cycles, run.predicted, color=GREY, linewidth=0.9, label=law)
         for family, (excess, name) in enumerate(
-            ((found.excess, "wear per cycle"), (found.pressure_excess, "pressure"))
+            ((run.excess, "wear per cycle"), (run.pressure_excess, "pressure"))
         ):
             look = stroke(family, family)
             dots = look | {"linestyle": "", "markersize": 5.5 - family}
-            axes.loglog(found.cycles, excess, label=name, **dots)
+            axes.loglog(run.cycles, excess, label=name, **dots)
         axes.axvline(note.PRINTED.cycles, color=INK, linewidth=0.7, linestyle=(0, (4.0, 2.0)))
         axes.axhline(note.PRINTED.criterion, color=INK, linewidth=0.7, linestyle=(0, (1.0, 1.5)))
         across, up = axes.get_xaxis_transform(), axes.get_yaxis_transform()
         axes.text(note.PRINTED.cycles, 0.97, " the note's cycle", transform=across, va="top")
-        said = "the note's criterion"
-        axes.text(0.02, note.PRINTED.criterion, said, transform=up, va="bottom")
+        name = "the note's criterion"
+        axes.text(0.02, note.PRINTED.criterion, name, transform=up, va="bottom")
         axes.set(xlabel=r"Cycles  $N$", ylabel="Relative excess over the limit")
         axes.legend(loc="upper right")
     return figure
 
 
 def wear_curve(runs: Runs) -> Figure:
-    """Wear over all decades with what the note has for it: the curve of the first page."""
-    found, limit = runs.approach, runs.asymptotes["section4"]
+    """Draw the wear over all decades with the note's asymptotes: the figure of the first page."""
+    solution, limit = runs.approach, runs.asymptotes["section4"]
     stopped = runs.histories["section4" + note.CUTOFF]
-    cycles = np.geomspace(1.0, found.cycles[-1], 200)
+    cycles = np.geomspace(1.0, solution.cycles[-1], 200)
     held = np.interp(np.log(cycles), np.log(stopped.cycles[1:]), stopped.u_c[1:])
     per_cycle = note.required(limit.wear_per_cycle_mm)
     lines = (
         (0.9, Line("slope (21)", cycles, per_cycle * cycles, 1, 1)),
         (0.9, Line("as printed", cycles, note.PRINTED.formula_mm * cycles, 4, 2)),
-        (1.4, Line("solution", np.r_[1.0, found.cycles], np.r_[stopped.u_c[1], found.wear])),
+        (1.4, Line("solution", np.r_[1.0, solution.cycles], np.r_[stopped.u_c[1], solution.wear])),
         (1.4, Line("loss of contact", cycles, held, 0, 1)),
     )
     with styled():
@@ -149,7 +149,7 @@ def wear_curve(runs: Runs) -> Figure:
 
 
 def regimes(scenes: Mapping[str, Scene]) -> Figure:
-    """Regions of f_c against the gap at the peak over the roughness, without and with loss of
+    """Draw regions of f_c against the gap at the peak over the roughness, without and with loss of
     contact; a dot at each of the named `scenes`, hollow where the pin wears or is rough."""
     slopes, gaps = np.meshgrid(np.linspace(-0.6, 0.6, 480), np.linspace(-3.0, 4.0, 560))
     with styled():
@@ -170,7 +170,7 @@ def regimes(scenes: Mapping[str, Scene]) -> Figure:
 def _region(
     axes: Axes, x: FloatArray, y: FloatArray, inside: NDArray[np.bool_], colour: str, name: str
 ) -> None:
-    """A region in its colour, its name in the middle of it."""
+    """Draw a region in its colour, with its name in the middle."""
     if not inside.any():
         return
     axes.contourf(x, y, inside.astype(float), levels=[0.5, 1.5], colors=[colour], alpha=0.3)
@@ -189,7 +189,8 @@ def _dot(axes: Axes, name: str, scene: Scene) -> None:
 
 
 def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_]:
-    """The names of the regimes by the map of the derivation; lengths in the initial roughness."""
+    """Return the names of the regimes by the map of the derivation, lengths in the initial
+    roughness."""
     values = {"f_c": slope, "h_0": gap, "sigma_c0": 1.0, "U_max": 0.0}
     named = np.full(slope.shape, "", dtype="<U32")
     for row in REGIMES:
@@ -202,7 +203,7 @@ def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_
 
 
 def _holds(relation: sp.Basic, values: Mapping[str, object]) -> NDArray[np.bool_]:
-    """Where a relation between data holds."""
+    """Return where a relation between data holds."""
     symbols = sorted(relation.free_symbols, key=str)
-    found = sp.lambdify(symbols, relation, "numpy")(*(values[s.name] for s in symbols))
-    return np.asarray(found, dtype=bool)
+    holds = sp.lambdify(symbols, relation, "numpy")(*(values[s.name] for s in symbols))
+    return np.asarray(holds, dtype=bool)

@@ -1,11 +1,10 @@
 """The document as one page: no network, formulas as MathML with their own font.
 
 Overview
-    `page` writes the whole file. Tokens that Markdown knows are written by markdown-it; each of
-    ours has a macro in ``templates/blocks.html``, named after it; `drawing` makes a figure fit to
-    stand inside the page. The frame is
-    ``templates/page.html``, the look ``assets/report.css``; a few lines of ``assets/report.js``
-    mark the section that is being read.
+    `page` writes the file. Tokens of Markdown are written by markdown-it; each of ours has a macro
+    in ``templates/blocks.html``, named after it; `drawing` prepares a figure for the page. The
+    frame is ``templates/page.html``, the style ``assets/report.css``; a few lines of
+    ``assets/report.js`` mark the section that is being read.
 On the page
     Landmarks and a link that skips to the content; headings in order without gaps; figures that
     are announced by their description; headed rows and columns.
@@ -26,7 +25,7 @@ import jinja2
 from derive.typeset import mathml
 from wear.cite import listed
 from wear.report.document import Document
-from wear.report.number import Number, grouped
+from wear.report.number import TextNumber, grouped
 from wear.report.writer import Writer
 
 _ASSETS = files("wear.report").joinpath("assets")
@@ -39,8 +38,8 @@ _SIZE = re.compile(r'\s(?:width|height)="[^"]*"')
 _WIDTH = re.compile(r'\bwidth="([\d.]+)pt"')
 _ID = re.compile(r'\bid="([^"]+)"')
 _USE = re.compile(r'((?:xlink:)?href="#|url\(#)([^")]+)')
-#: (What has no colour in the file is black: the root's fill takes care of that.)
-#: Ink and paper of the figures follow the colours of the page, so that dark mode works.
+#: Ink and paper of the figures follow the colours of the page, so that dark mode works. (Shapes
+#: without a colour are black: they take the fill of the root.)
 _INK = {"#000000": "currentColor", "#ffffff": "var(--paper)"}
 
 
@@ -72,15 +71,15 @@ def asset(name: str) -> str:
 
 
 def style() -> str:
-    """Return the look of a page, with the font of its formulas."""
+    """Return the style sheet of a page, with the font of its formulas."""
     font = base64.b64encode(_ASSETS.joinpath("stix-two-math.woff2").read_bytes()).decode()
     return asset("report.css").replace(
         "url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})"
     )
 
 
-def _data(node: Number) -> str:
-    """Return a number that was computed; a pointer on it shows by what."""
+def _data(node: TextNumber) -> str:
+    """Return a computed number as an element whose tooltip names its source."""
     digits, exponent = node.decimal
     shown = grouped(digits, "\u202f")
     if exponent is not None:
@@ -92,10 +91,10 @@ def _data(node: Number) -> str:
 
 
 def drawing(svg: str, label: str, description: str) -> str:
-    """The figure as an element of the page.
+    """Return a figure as an element of the page.
 
     Its ids begin with `label` (two figures may use the same ids), black and white become the ink
-    and paper of the page, its width on paper is told to the style sheet as ``--points``, and it is
+    and paper of the page, the style sheet gets its width on paper as ``--points``, and it is
     announced as one image with `description`.
     """
     body = _NOT_FOR_A_PAGE.sub("", svg).strip()

@@ -10,7 +10,7 @@ import re
 from collections.abc import Container
 
 from derive.typeset.reading import Fragment, read
-from wear.report.number import Number, grouped
+from wear.report.number import TextNumber, grouped
 
 _MARK = re.compile(
     r"``(?P<code>[^`]+)``"
@@ -18,7 +18,7 @@ _MARK = re.compile(
     r"|\b(?P<claim>C\d+)\b"
 )
 _SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
-#: The line that is meant where the number of a system is given.
+#: The line of a system that its number stands for.
 _MEANT = {"16": "16b", "17": "17b"}
 
 
@@ -48,7 +48,7 @@ def markup(text: str, labels: Container[str] = ()) -> str:
 
 
 def _marked(mark: re.Match[str], labels: Container[str]) -> str:
-    """Code, a reference, or what stands in brackets as it is."""
+    """Return code, a reference, or brackets with their content unchanged."""
     if mark["code"]:
         return f"`{mark['code']}`"
     if mark["claim"]:
@@ -86,4 +86,4 @@ def number(digits: str) -> str:
         return f"${grouped(digits, chr(92) + ',')}$"
     mantissa = digits.lower().partition("e")[0].lstrip("+-")
     significant = len(mantissa.replace(".", "").lstrip("0")) or 1
-    return f"${Number(float(digits), 'as written', significant).latex}$"
+    return f"${TextNumber(float(digits), 'as written', significant).latex}$"

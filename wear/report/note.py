@@ -1,8 +1,8 @@
-"""The examples of the note: scenes and asymptotes, each made once, and what the note prints.
+"""The examples of the note: scenes and asymptotes, each computed once, and the printed numbers.
 
-Its numbers for section 4 do not agree with each other.  All data but f_c enter (21) as factors; one
-f_c gives the wear per cycle that is printed, and the simulation with it tells how well the printed
-simulated value, which no fit has seen, comes out: the `reconciliation`.
+The printed numbers of section 4 contradict each other.  All data except f_c enter (21) as factors;
+one value of f_c gives the printed wear per cycle, and the simulation with it predicts the printed
+simulated value, to which nothing was fitted: the `reconciliation`.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ EXAMPLES = ("section3", "section4", "section5")
 SECTION_5 = ("section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4")
 """The scenes of Fig. 3b, by rising wear coefficient."""
 CUTOFF = ".cutoff"
-"""What the name of an example ends in with loss of contact."""
+"""Suffix of the name of an example with loss of contact."""
 RTOL = 1e-12
 """Requested relative error of the analysis."""
 
 
-class Printed(NamedTuple):
+class PrintedValues(NamedTuple):
     """Numbers that the note prints for section 4."""
 
     simulated_mm: float = 2.34e-5
@@ -41,7 +41,7 @@ class Printed(NamedTuple):
     criterion: float = 1e-6
 
 
-PRINTED = Printed()
+PRINTED = PrintedValues()
 
 
 @cache
@@ -58,15 +58,14 @@ def limit(name: str) -> Asymptote:
 
 
 def required(value: Some | None) -> Some:
-    """Return a constant that the regime of the scene has, else the report speaks of another."""
+    """Return a constant of the regime of the scene; raise if the regime does not have it."""
     if value is None:
         raise ValueError("the report speaks of a constant that this regime does not have")
     return value
 
 
 def increments(scene: Scene, wear: FloatArray) -> FloatArray:
-    """Return the wear (mm) that one more cycle adds to each wear (mm): integrated, not
-    subtracted."""
+    """Return the increment (mm) of the next cycle at each wear (mm), integrated, not subtracted."""
     equation, size = equation_of([scene]), settings(RTOL)
     ((_, maps),) = resolved(equation, equation.breakpoints, wear[None], size)
     return np.asarray(maps.finer(size).advance(wear[None]).increment[0])
@@ -85,12 +84,12 @@ class Reconciliation(NamedTuple):
 
     @property
     def misfit(self) -> float:
-        """Relative distance of the simulated wear from the printed one."""
+        """Return the relative distance of the simulated wear from the printed one."""
         return self.simulated_mm / PRINTED.simulated_mm - 1.0
 
     @property
     def sentence(self) -> str:
-        """The change and how well it does."""
+        """Return the sentence on the changed f_c and its consequences."""
         distance = self.simulated_mm / PRINTED.formula_mm - 1.0
         was = scene("section4").bearing.roughness_growth
         return (
@@ -109,7 +108,7 @@ def _simulated(slope: float) -> float:
 
 @cache
 def reconciliation() -> Reconciliation:
-    """Return the f_c for which (21) gives the printed value: the threshold of that share."""
+    """Return the f_c for which (21) gives the printed value, by the threshold of its share."""
     numbers = scene("section4").parameters()
     data = {name: numbers[name] for name in ("T", "K_c", "H_c", "R", "n")}
     largest = formula.wear_per_cycle(**data, p_inf=numbers["p_max"])

@@ -1,4 +1,4 @@
-"""Numbers of the text: each knows its digits, its unit and the computation that it came from."""
+"""Numbers of the text, each with its digits, its unit and the computation that it comes from."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from numbers import Integral
 
 
 @dataclass(frozen=True)
-class Number:
-    """A number that the run computed.
+class TextNumber:
+    """A computed number.
 
     `digits` counts significant digits, `unit` is plain text such as ``mm`` or ``MPa/mm``, and
     `source` names the computation. Integers below a million are shown in full.
 
-    >>> Number(4.63554742752e-8, "equation 21", 4, "mm").decimal
+    >>> TextNumber(4.63554742752e-8, "equation 21", 4, "mm").decimal
     ('4.636', -8)
-    >>> Number(9000, "scene").decimal
+    >>> TextNumber(9000, "scene").decimal
     ('9000', None)
     """
 
@@ -33,15 +33,15 @@ class Number:
         if self.digits < 1:
             raise ValueError(f"a number needs at least one digit, got {self.digits}")
         if not self.source:
-            raise ValueError(f"the number {self.value} does not say where it comes from")
+            raise ValueError(f"the number {self.value} has no source")
 
-    def to(self, digits: int) -> Number:
-        """Return the same number, shown to so many significant digits."""
+    def to(self, digits: int) -> TextNumber:
+        """Return the same number with another count of significant digits."""
         return replace(self, digits=digits)
 
     @property
     def decimal(self) -> tuple[str, int | None]:
-        """Digits, with a sign if negative, and the power of ten if there is one."""
+        """Return the digits, with a sign if negative, and the power of ten if there is one."""
         if isinstance(self.value, Integral | int) and abs(self.value) < 10**6:
             return str(int(self.value)), None
         if self.value == 0.0:
@@ -54,10 +54,12 @@ class Number:
 
     @property
     def latex(self) -> str:
-        r"""The number in math mode.
+        r"""Return the number in math mode.
 
-        >>> print(Number(4.63554742752e-8, "equation 21", 4).latex, Number(123456, "scene").latex)
-        4.636\times10^{-8} 123\,456
+        >>> print(TextNumber(4.63554742752e-8, "equation 21", 4).latex)
+        4.636\times10^{-8}
+        >>> print(TextNumber(123456, "scene").latex)
+        123\,456
         """
         digits, exponent = self.decimal
         power = "" if exponent is None else rf"\times10^{{{exponent}}}"
@@ -65,7 +67,7 @@ class Number:
 
 
 def significant(value: float, most: int) -> int:
-    """Return as many digits as a datum has, `most` at most.
+    """Return the number of digits of a datum, at most `most`.
 
     >>> significant(-0.05, 12), significant(1.08e-3, 12), significant(2000.0, 6)
     (1, 3, 1)

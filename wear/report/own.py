@@ -1,4 +1,4 @@
-"""The report of a scene of one's own: the machinery of the paper with the text ``scene.md``."""
+"""The report of a user's scene: the machinery of the paper with the text ``scene.md``."""
 
 from __future__ import annotations
 
@@ -44,18 +44,18 @@ _DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 _INSIDE = (0, 10, 100, 1000)
 _LAST = 10**8
 _POINTS = 120  # of a curve
-_EARLY = 1000  # cycles whose sensitivities stand beside those of the last
+_EARLY = 1000  # cycles after which sensitivities are shown beside those at the last cycle
 _BARS = 15
 
 
 def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
-    """Return the report of a scene, with what was measured on `specimens` of it."""
+    """Return the report of a scene, with the readings of `specimens` of it."""
     limit = None if isinstance(scene.load, Blocks | HistoryLoad) else asymptote(scene)
     curve = _solved(scene)
-    begun = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
-    pressed = None if limit is None else pressure_inside(scene, begun)
+    inside = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
+    pressures = None if limit is None else pressure_inside(scene, inside)
     equations = shown(_equations(scene, limit))
-    found = _sensitivities(
+    sensitivities = _sensitivities(
         scene, [n for n in (_EARLY, int(curve.cycles[-1])) if n <= curve.cycles[-1]]
     )
     values: dict[str, Any] = {
@@ -78,32 +78,32 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "scene": drawing.of_scene(scene),
         "history": figures.history(panels_of([curve]), logarithmic=True),
     }
-    if pressed is not None:
-        drawings["inside"] = figures.pressure_in_cycles(pressed)
-    if found is not None:
-        drawings["sensitivities"] = _tornado(found)
+    if pressures is not None:
+        drawings["inside"] = figures.pressure_in_cycles(pressures)
+    if sensitivities is not None:
+        drawings["sensitivities"] = _tornado(sensitivities)
     if specimens:
-        compared, drawings["readings"] = _readings(scene, specimens)
-        values |= compared
+        comparison, drawings["readings"] = _readings(scene, specimens)
+        values |= comparison
     values["drawings"] = drawings
     return Document(parsed(template("scene.md"), values), equations, drawn(drawings))
 
 
 def _solved(scene: Scene) -> History:
-    """Return the state along cycles, powers of ten among them: as far as the load goes, and no
-    further than the model is meant for."""
-    found = _best(scene, min(_LAST, most_cycles(scene.load)))
-    ends = [n for n in range(1, len(found.cycles) + 1) if _is_round(found.cycles[n - 1])]
-    meant = [
-        int(found.cycles[n - 1])
+    """Return the state along cycles, powers of ten among them, up to the end of the load and within
+    the scope of the model."""
+    curve = _best(scene, min(_LAST, most_cycles(scene.load)))
+    ends = [n for n in range(1, len(curve.cycles) + 1) if _is_round(curve.cycles[n - 1])]
+    plausible = [
+        int(curve.cycles[n - 1])
         for n in ends
         if not any(
-            implausible_results(scene, found.cycles[:n].tolist(), found.u_c[:n], found.sigma_c[:n])
+            implausible_results(scene, curve.cycles[:n].tolist(), curve.u_c[:n], curve.sigma_c[:n])
         )
     ]
-    if not meant or len(meant) == len(ends):
-        return found
-    return _best(scene, meant[-1])
+    if not plausible or len(plausible) == len(ends):
+        return curve
+    return _best(scene, plausible[-1])
 
 
 def _best(scene: Scene, last: int) -> History:
@@ -123,12 +123,12 @@ def _is_round(cycle: int) -> bool:
 
 
 def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
-    """Those of the variant, and those of its long run."""
+    """Return the equations of the variant, and those of its long-term behaviour."""
     key, opening = scene.variant, scene.contact.pin_wear_opens_gap
     if key.given_load:
         return [equation("problem-i")]
-    own = own_law(key.law.removeprefix(PREFIX))[0] if is_own(key.law) else LAWS[key.law]
-    variant = Variant(own, key.support == "compliant", Pin(key.pin), key.ends_at_3_sigma)
+    law = own_law(key.law.removeprefix(PREFIX))[0] if is_own(key.law) else LAWS[key.law]
+    variant = Variant(law, key.support == "compliant", Pin(key.pin), key.ends_at_3_sigma)
     chosen: dict[str, str | bool] = {
         "law": key.law, "pin": key.pin, "compliant": variant.compliant, "opening": opening,
         "cutoff": key.ends_at_3_sigma, "regime": _regime(scene, limit), "load": _kind(scene),
@@ -153,53 +153,53 @@ def _kind(scene: Scene) -> str:
 
 
 def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:
-    found = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
-    return [markup(said) for said in dict.fromkeys(found) if not said.startswith("auto: ")]
+    notices = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
+    return [markup(text) for text in dict.fromkeys(notices) if not text.startswith("auto: ")]
 
 
 def _life(scene: Scene) -> Iterator[tuple[float, float, str, float]]:
-    """Yield depths (mm), after how many cycles each is reached, in what way, and in how many hours;
-    what is not known is no number."""
+    """Return depths (mm), each with its number of cycles, the way in which that is found, and its
+    hours; unknown numbers are NaN."""
     depths = [depth * scene.initial_roughness for depth in _DEPTHS]
-    found = cycles_until(scene, depths, rtol=1e-8)
-    loaded = np.where(found.cycles <= most_cycles(scene.load), found.cycles, np.nan)
+    life = cycles_until(scene, depths, rtol=1e-8)
+    loaded = np.where(life.cycles <= most_cycles(scene.load), life.cycles, np.nan)
     hours = Abscissa.HOURS.of(scene, loaded).tolist()
-    ways = [way.value for way in found.reached]
-    return zip(depths, found.cycles.tolist(), ways, hours, strict=True)
+    ways = [way.value for way in life.reached]
+    return zip(depths, life.cycles.tolist(), ways, hours, strict=True)
 
 
 def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
-    """Return how the wear depends on the numbers of the scene, None where that is not known."""
+    """Return the sensitivities of the wear to the numbers of the scene, None if unknown."""
     try:
-        found = sensitivity(scene, sorted(set(cycles)), rtol=1e-8)
+        sensitivities = sensitivity(scene, sorted(set(cycles)), rtol=1e-8)
     except UsageError:
         return None
-    return found if np.isfinite(found.error).all() else None
+    return sensitivities if np.isfinite(sensitivities.error).all() else None
 
 
-def _tornado(found: Sensitivities) -> Figure:
-    """The elasticities that are largest, without those in single rows of a load."""
-    most = np.argsort(-np.max(np.abs(np.nan_to_num(found.elasticity)), axis=1))
-    shown = [i for i in most if "[" not in found.keys[i]][:_BARS]
-    keys = [found.keys[i] for i in shown]
-    return figures.tornado(keys, found.elasticity[shown], found.cycles)
+def _tornado(sensitivities: Sensitivities) -> Figure:
+    """Draw the largest elasticities, without those of single rows of a load."""
+    keys, elasticity = sensitivities.keys, sensitivities.elasticity
+    order = np.argsort(-np.max(np.abs(np.nan_to_num(elasticity)), axis=1))
+    largest = [i for i in order if "[" not in keys[i]][:_BARS]
+    return figures.tornado([keys[i] for i in largest], elasticity[largest], sensitivities.cycles)
 
 
 def _readings(scene: Scene, specimens: Sequence[Specimen]) -> tuple[dict[str, Any], Figure]:
-    """Return the readings beside the prediction (mm), how they scatter about it, and a figure."""
+    """Return the readings beside the prediction (mm), their scatter about it, and a figure."""
     runs = {each.name or "predicted": scene.with_(each.changes) for each in specimens}
     rows, lines = [], []
     for place, (each, name) in enumerate(zip(specimens, runs, strict=True)):
         cycles = cycles_along(*each.cycles[[0, -1]].tolist(), _POINTS, each.cycles)
-        found = solve(runs[name], cycles, rtol=1e-8)
-        meant = found.u_c[np.searchsorted(found.cycles, each.cycles)]
-        pairs = zip(each.cycles.astype(int), each.wear_mm, meant, strict=True)
+        curve = solve(runs[name], cycles, rtol=1e-8)
+        predicted = curve.u_c[np.searchsorted(curve.cycles, each.cycles)]
+        pairs = zip(each.cycles.astype(int), each.wear_mm, predicted, strict=True)
         rows += [(each.name, *numbers) for numbers in pairs]
-        lines.append(Line(name, found.cycles.astype(float), found.u_c, place))
-    ratios = np.array([wear / meant for _, _, wear, meant in rows if wear > 0.0] or [1.0])
+        lines.append(Line(name, curve.cycles.astype(float), curve.u_c, place))
+    ratios = np.array([wear / mean for _, _, wear, mean in rows if wear > 0.0] or [1.0])
     ratio, scatter = np.exp(np.mean(np.log(ratios))), np.std(np.log(ratios))
     read = np.concatenate([each.cycles for each in specimens])
     logarithmic = bool(read.max() > 100.0 * read.min())
     panel = Panel(WEAR, tuple(lines), points_of(specimens, runs, Abscissa.CYCLES))
-    compared = {"readings": rows, "ratio": ratio, "scatter": scatter}
-    return compared, figures.history([panel], logarithmic=logarithmic)
+    comparison = {"readings": rows, "ratio": ratio, "scatter": scatter}
+    return comparison, figures.history([panel], logarithmic=logarithmic)

@@ -1,7 +1,7 @@
 """The paper: its text (``paper.md``) with the results, equations and figures of a run.
 
-The text takes its numbers from the results where it needs them. What stands here is that which
-takes more than an expression.
+The text takes its numbers from the results where it needs them. This module has the values that
+take more than an expression.
 """
 
 from __future__ import annotations
@@ -32,8 +32,7 @@ from wear.figures import speed_against_cycles
 from wear.generated import asymptotics
 from wear.report import drawing, figures_of_note, note
 from wear.report.claims import Entry
-from wear.report.document import Document, Figure, drawn
-from wear.report.document import Equation as Shown
+from wear.report.document import DisplayedEquation, Document, FigureFiles, drawn
 from wear.report.equations import capital, shown
 from wear.report.publish import versions
 from wear.report.runs import STATIC_CYCLES, Runs
@@ -56,13 +55,13 @@ def paper(
     verification: Verification,
     runs: Runs,
     ledger: Sequence[Entry],
-    figures: Mapping[str, Figure],
+    figures: Mapping[str, FigureFiles],
 ) -> Document:
-    """Return the paper. Equations that its text does not name stand in the appendix."""
+    """Return the paper. Equations that its text does not name are in the appendix."""
     displayed, derivations = shown(equations), Derivations(equations)
     sections = _by_section(equations, displayed)
-    whole = template("paper.md")
-    text = whole.partition("{#app:")[0]
+    source = template("paper.md")
+    text = source.partition("{#app:")[0]
     values = {
         "runs": runs,
         "note": note,
@@ -91,18 +90,18 @@ def paper(
         "versions": versions(),
         "derivations": derivations,
         "origins": {
-            name: listed(f"[(eq:{origin})]" for origin in found)
+            name: listed(f"[(eq:{origin})]" for origin in origins)
             for names in sections.values()
             for name in names
-            if (found := derivations.origins(name))
+            if (origins := derivations.origins(name))
         },
         "sections": sections,
         "in_text": [name for names in _EQUATIONS.findall(text) for name in names.split()],
     }
-    return Document(parsed(whole, values), displayed, figures)
+    return Document(parsed(source, values), displayed, figures)
 
 
-def drawings(runs: Runs) -> Mapping[str, Figure]:
+def drawings(runs: Runs) -> Mapping[str, FigureFiles]:
     """Return the figures of the paper by label."""
     return drawn(
         {
@@ -126,7 +125,7 @@ def drawings(runs: Runs) -> Mapping[str, Figure]:
 
 
 def _drift_distance(runs: Runs) -> float:
-    """Relative difference of the wear from its asymptotic law at the last cycle solved."""
+    """Return the relative difference of the wear from its asymptotic law at the last cycle."""
     limit = runs.asymptotes["section4"]
     cycle, wear = float(runs.approach.cycles[-1]), float(runs.approach.wear[-1])
     law = note.required(limit.wear_per_cycle_mm) * cycle + note.required(limit.offset_mm)
@@ -135,19 +134,19 @@ def _drift_distance(runs: Runs) -> float:
 
 
 def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
-    """Return the elasticity of the wear per cycle in f_c, by its equation."""
+    """Return the elasticity of the wear per cycle with respect to f_c, by its equation."""
     limit, scene = runs.asymptotes["section4"], runs.histories["section4"].definition
     data = {
         "f_c": scene.bearing.roughness_growth,
         "p_inf": note.required(limit.pressure_MPa),
         "p_max": scene.contact.max_pressure_MPa,
     }
-    found = next(e for e in equations if e.id == "elasticity-slope").relation.rhs
-    return float(found.subs({symbol: data[symbol.name] for symbol in found.free_symbols}))
+    formula = next(e for e in equations if e.id == "elasticity-slope").relation.rhs
+    return float(formula.subs({symbol: data[symbol.name] for symbol in formula.free_symbols}))
 
 
 def _regimes() -> Iterator[tuple[str, str, str, str]]:
-    """Yield the rows of the map by which the software decides."""
+    """Yield the rows of the map of regimes that the software uses."""
     for regime in REGIMES:
         where = listed([f"${_hypothesis(c.relation)}$" for c in regime.conditions])
         equations = listed([f"[(eq:{name})]" for name in regime.equations])
@@ -177,8 +176,8 @@ def _further(equations: Sequence[Equation]) -> list[str]:
 
 
 def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
-    """Yield what the paper shows: equations, the printed forms of those corrected, hypotheses,
-    steps."""
+    """Yield the expressions of the paper: equations, the printed forms of corrected ones,
+    hypotheses, steps."""
     for equation in equations:
         yield from (*equation.shown, *equation.where)
         if not equation.agrees:
@@ -188,7 +187,7 @@ def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:
 
 
 def _section(where: str) -> str:
-    """Return where a claim stands in the note; a section is called one.
+    """Return the place of a claim in the note, with the word section before numbers.
 
     >>> _section("2.5, (6)"), _section("3, 5"), _section("after (21)")
     ('section 2.5, (6)', 'sections 3, 5', 'after (21)')
@@ -202,13 +201,13 @@ def _section(where: str) -> str:
 
 
 def _by_section(
-    equations: Sequence[Equation], displayed: Mapping[str, Shown]
+    equations: Sequence[Equation], displayed: Mapping[str, DisplayedEquation]
 ) -> dict[str, list[str]]:
-    """Return the ids of the equations by section of the catalogue, each that says the same once."""
-    found: dict[str, list[str]] = {}
+    """Return the ids of the equations by section of the catalogue, of identical ones the first."""
+    sections: dict[str, list[str]] = {}
     seen: set[str] = set()
     for equation in equations:
         if equation.id not in seen:
-            found.setdefault(equation.section, []).append(equation.id)
+            sections.setdefault(equation.section, []).append(equation.id)
         seen |= {equation.id, *displayed[equation.id].also}
-    return found
+    return sections

@@ -1,5 +1,5 @@
-r"""A document as the files that a reader gets, ``report.pdf`` among them where TeX is found; and
-``manifest.json``: what is needed to make them again, and to see that they are the same."""
+r"""The files of a document, ``report.pdf`` among them where TeX is found, and ``manifest.json``:
+the data that reproduce and verify them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PACKAGES = (
     "math-core",
 )
 
-#: What the log of a good report does not have. Underfull boxes are harmless.
+#: Lines that the log of a good report does not have. Underfull boxes are harmless.
 _WARNING = re.compile(
     r"^(?:LaTeX|Package|Class)\b[^\n:]*? Warning: .*|^pdfTeX warning.*"
     r"|^Overfull \\[hv]box \((\d+\.?\d*)pt.*|^! .*",
@@ -57,7 +57,7 @@ class PdfOutcome:
 
 
 def published(document: Document) -> tuple[dict[str, str | bytes], PdfOutcome]:
-    """Return the files of a document by name, and what came of the PDF: ``report.html``,
+    """Return the files of a document by name, and the outcome of the PDF: ``report.html``,
     ``report.tex``, ``equations.tex``, every figure as SVG and PDF, and ``report.pdf`` where a TeX
     engine is found."""
     sources = tex.report(document)
@@ -106,7 +106,7 @@ def typeset(source: Path, timeout: float = 120.0) -> PdfOutcome:
 
 
 def warnings(log: str) -> tuple[str, ...]:
-    r"""The lines of a TeX log that matter: warnings, errors, boxes too wide by more than 1 pt.
+    r"""Return the lines of a TeX log that matter: warnings, errors, boxes too wide by over 1 pt.
 
     >>> warnings("Overfull \\hbox (0.4pt too wide) in x\nOverfull \\hbox (9.1pt too wide) in y")
     ('Overfull \\hbox (9.1pt too wide) in y',)
@@ -121,16 +121,16 @@ def manifest(
 ) -> dict[str, Any]:
     """Return versions, platform in general terms, command, scenes, and the SHA-256 of every
     file."""
-    bare = {n: each.encode() if isinstance(each, str) else each for n, each in contents.items()}
+    data = {name: x.encode() if isinstance(x, str) else x for name, x in contents.items()}
     return {
         "command": command,
         "versions": versions(),
         "platform": {"system": platform.system(), "machine": platform.machine()},
         "scenes": {name: scene.to_tables() for name, scene in sorted(scenes.items())},
-        "sha256": {name: hashlib.sha256(bare[name]).hexdigest() for name in sorted(bare)},
+        "sha256": {name: hashlib.sha256(data[name]).hexdigest() for name in sorted(data)},
     }
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python and of the packages in use; those not installed are left out."""
+    """Return the versions of Python and of the packages that are installed."""
     return {"python": platform.python_version(), **installed(PACKAGES)}

@@ -1,12 +1,12 @@
 """The runs that the report needs, each made once.
 
 Overview
-    Everything here is a number: histories of the note's scenes in both readings, how
-    the wear approaches its asymptote, the closed solution against the solver, bounds, arrest and
-    hard scenes. The paper's modules only say what the numbers mean.
+    Everything here is a number: histories of the note's scenes in both readings, the approach of
+    the wear to its asymptote, the closed solution against the solver, bounds, arrest and hard
+    scenes. The paper's modules interpret the numbers.
 Key results
-    Runs    all of them
-    run     make them
+    Runs    the results of all runs
+    run     computes them
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ _HARD_CYCLES = 100
 
 
 class Approach(NamedTuple):
-    """How section 4 approaches its asymptote: arrays along ``cycles``.
+    """The approach of section 4 to its asymptote: arrays along ``cycles``.
 
     ``increment`` mm is the wear of the cycle that follows, ``excess`` and ``pressure_excess`` are
     relative to (21) and (22), ``predicted`` is A/(N u_cum).
@@ -95,7 +95,7 @@ class Runs:
 
 
 def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
-    """Make every run; ``progress`` is told what comes next."""
+    """Make every run; ``progress`` is called with the name of the next one."""
     histories, last = {}, note.PRINTED.cycles
     shown = cycles_along(1, last, 80, np.linspace(0, last, 91))
     for name in SCENES:
@@ -144,7 +144,8 @@ def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
 
 
 def _phase_distance(history: History) -> float:
-    """Where U_a = h_0 - sigma_c0/f_c the rate is at its limit, whatever the wear."""
+    """Return the largest relative distance of the rate from its limit at the phases where
+    U_a = h_0 - sigma_c0/f_c: there the rate has its limit for every wear."""
     scene, load = history.definition, history.definition.periodic_load
     level = scene.closure - scene.bearing.roughness_mm / scene.bearing.roughness_growth
     rising = float(np.arcsin(level / load.maximum) / (2.0 * np.pi))
@@ -156,7 +157,7 @@ def _phase_distance(history: History) -> float:
 
 def static_wear(scene: Scene, cycles: Sequence[float], near: Sequence[float]) -> note.FloatArray:
     """Return the wear (mm) after numbers of cycles under a constant load, by the derived closed
-    solution: its roots by wears `near` them, in as many digits as its factors need."""
+    solution, whose roots are sought from wears `near` them in the digits that its factors need."""
     time, *names = stated("static-solution")
     numbers = scene.parameters() | {"U_a": scene.periodic_load.mean}
     numbers["V"] = reaction.sliding_distance(R=numbers["R"], T=1.0, n=numbers["n"])
@@ -173,7 +174,7 @@ def static_wear(scene: Scene, cycles: Sequence[float], near: Sequence[float]) ->
 
 
 def _static_distance(scene: Scene) -> float:
-    """Largest relative difference of the closed solution from the solver, under a constant load."""
+    """Return the largest relative difference of closed solution and solver at a constant load."""
     still = replace(scene, load=Constant(0.0, scene.periodic_load.period))
     solved = solve(still, STATIC_CYCLES, rtol=note.RTOL).u_c
     closed = static_wear(still, STATIC_CYCLES, solved.tolist())
@@ -181,7 +182,7 @@ def _static_distance(scene: Scene) -> float:
 
 
 def _integrated(history: History) -> float:
-    """Largest relative difference between two solvers over the first cycles."""
+    """Return the largest relative difference between two solvers over the first cycles."""
     scene, cycles = history.definition, [n for n in history.cycles if 0 < n <= INTEGRATED_CYCLES]
     direct = solve(scene, cycles, rtol=CUTOFF_RTOL, method="DOP853")
     counted = solve(scene, cycles, rtol=CUTOFF_RTOL, method="abel")

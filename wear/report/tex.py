@@ -4,8 +4,8 @@ Overview
     `report` writes all files. ``equations.tex`` holds one macro for each equation that the text
     shows, so that other reports may ``\input`` the same file. Equations carry their numbers as
     tags; sections, figures and tables are numbered by LaTeX itself, and a test compares the outcome
-    with `wear.report.document`. The frame is ``templates/report.tex``; how a token is written
-    stands in ``templates/blocks.tex``.
+    with `wear.report.document`. The frame is ``templates/report.tex``; ``templates/blocks.tex`` has
+    the macros of the tokens.
 """
 
 from __future__ import annotations
@@ -69,22 +69,22 @@ def equations(document: Document) -> str:
     """Return one macro for each equation: the formula alone, to be set in any display."""
     writer = _writer(document)
     lines = ["% Formulas of the report, one macro each. Needs amsmath and amssymb."]
-    for found in document.shown:
-        if not (found.macro.isascii() and found.macro.isalpha()):
-            raise ValueError(f"{found.id}: a macro's name has letters only, not {found.macro!r}")
-        title = writer.of_line(found.title)
-        lines.append(f"% ({document.marks[f'eq:{found.id}'].number}) {title}")
-        lines.append(f"\\providecommand{{\\{found.macro}}}{{{broken(found.latex)}}}")
+    for shown in document.shown:
+        if not (shown.macro.isascii() and shown.macro.isalpha()):
+            raise ValueError(f"{shown.id}: a macro's name has letters only, not {shown.macro!r}")
+        title = writer.of_line(shown.title)
+        lines.append(f"% ({document.marks[f'eq:{shown.id}'].number}) {title}")
+        lines.append(f"\\providecommand{{\\{shown.macro}}}{{{broken(shown.latex)}}}")
     return "\n".join(lines) + "\n"
 
 
 def _writer(document: Document) -> Writer:
-    """Return what writes tokens by ``templates/blocks.tex``."""
+    """Return the writer of tokens by ``templates/blocks.tex``."""
     return Writer(document, _TEMPLATES.get_template("blocks.tex"), _PLAIN)
 
 
 def escape(text: str) -> str:
-    r"""The text for LaTeX with utf8 input and T1 fonts.
+    r"""Return the text for LaTeX with utf8 input and T1 fonts.
 
     >>> print(escape("5 % of p_max – Éric & Söhne"))
     5 \% of p\_max – Éric \& Söhne
@@ -102,7 +102,7 @@ def escape(text: str) -> str:
 
 
 def verbatim(code: str, width: int) -> str:
-    """Code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
+    """Return code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
     if "\\end{verbatim}" in code:
         raise ValueError("a listing cannot hold the end of its own environment")
     lines = []

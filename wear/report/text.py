@@ -2,22 +2,22 @@ r"""The text of a report: Markdown with values, read into tokens.
 
 Overview
     A report is written in Markdown (``paper.md``) and filled in by Jinja2. `parsed` returns the
-    tokens of markdown-it, with what a writer needs to know of their neighbours; `wear.report.html`
-    and `wear.report.tex` make a page and LaTeX of them.
+    tokens of markdown-it, with the properties of their neighbours that a writer needs;
+    `wear.report.html` and `wear.report.tex` make a page and LaTeX of them.
 Marks, besides those of Markdown
     {{ u | number("scene 4", 5, "mm") }}
-                            a `Number` by its source, shown to five digits, with its unit
+                            a `TextNumber` by its source, shown to five digits, with its unit
     {{ text | plain }}      words as they are; ``markup`` also sets formulas and references
     $u_c$                   a formula
     [eq:21], [(eq:18)]      a reference by kind and number, or by the number alone; ``sec: app: fig:
                             tab: claim: der: ref:`` likewise
-    {#tab:data}             what the reference leads to: at the end of a heading or caption, or
+    {#tab:data}             the target of a reference: at the end of a heading or caption, or
                             anywhere in a line
     {verdict refuted}       a status or verdict
     Table: Data. {#tab:x}   the caption of the table below it; a column ``:--`` is narrow, ``---``
                             holds sentences, ``--:`` numbers
     ![Caption.](fig:wear "Description for those who do not see it.")
-                            a figure; several in a paragraph stand side by side
+                            a figure; several in one paragraph stand side by side
     ```equations            the equations of these ids
     ```math                 one formula in a display, without a number
     ```works                the works that the text cites
@@ -38,7 +38,7 @@ from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 
 from wear.report.markup import escaped, markup
-from wear.report.number import Number, significant
+from wear.report.number import TextNumber, significant
 
 _LABEL = r"(?:eq|sec|app|fig|tab|claim|der|ref):[A-Za-z0-9.\-]+"
 _MARK = re.compile(
@@ -54,11 +54,11 @@ _FIGURES = re.compile(r"(?:\s*!\[(?:[^\]]|\[[^\]]*\])*\]\(fig:[^)]*\))+\s*", re.
 
 
 Tokens = tuple[Token, ...]
-"""A text that was read."""
+"""A parsed text."""
 
 
 def inline(tokens: Tokens) -> Iterator[Token]:
-    """Return all tokens inside lines, captions among them, in reading order."""
+    """Yield all tokens inside lines, captions among them, in reading order."""
     for piece in (piece for token in tokens for piece in token.children or ()):
         yield piece
         yield from piece.children or ()
@@ -70,17 +70,17 @@ def template(name: str) -> str:
 
 
 def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
-    """Return a text, filled in; where a number stands its token has it as `meta["number"]`.
+    """Return the tokens of a text with its values; a number is `meta["number"]` of its token.
 
     Raises
     ------
     jinja2.UndefinedError
-        if the text asks for a value that is not there.
+        if the text needs an unknown value.
     """
-    numbers: list[Number] = []
+    numbers: list[TextNumber] = []
 
     def shown(value: Any) -> Any:
-        if not isinstance(value, Number):
+        if not isinstance(value, TextNumber):
             return value
         numbers.append(value)
         return f"{{number {len(numbers) - 1}}}"
@@ -97,31 +97,31 @@ def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
 
 def _number(
     value: float, source: str, digits: int = 12, unit: str = "", most: int | None = None
-) -> Number:
-    """Return a number of the run; a datum with as many digits as it has, `most` at most."""
-    return Number(value, source, digits if most is None else significant(value, most), unit)
+) -> TextNumber:
+    """Return a number of the run; with `most`, a datum with its own digits, at most so many."""
+    return TextNumber(value, source, digits if most is None else significant(value, most), unit)
 
 
 def line(text: str) -> Sequence[Token]:
-    """Return the tokens of one line of Markdown, a title say."""
+    """Return the tokens of one line of Markdown, such as a title."""
     (inline,) = MARKDOWN.parseInline(text)
     return inline.children or ()
 
 
 def _mark(state: StateInline, silent: bool) -> bool:
     """Read one of our marks inside a line."""
-    found = _MARK.match(state.src, state.pos)
-    if found is None:
+    match = _MARK.match(state.src, state.pos)
+    if match is None:
         return False
     if not silent:
-        kind = found.lastgroup or ""
+        kind = match.lastgroup or ""
         token = state.push(kind, "", 0)
-        token.content = found[kind]
-        token.meta["bare"] = found["bare"] is not None
+        token.content = match[kind]
+        token.meta["bare"] = match["bare"] is not None
         token.meta["kept"] = ""
         if kind == "number":
             token.meta["number"] = state.env["numbers"][int(token.content)]
-    state.pos = found.end()
+    state.pos = match.end()
     return True
 
 
@@ -145,7 +145,7 @@ def _labels(state: StateCore) -> None:
 
 
 def _sections(state: StateCore) -> None:
-    """Tell headings, and the end of the text, how many sections end there."""
+    """Set the number of sections that end at each heading, and at the end of the text."""
     if state.inlineMode:
         return
     levels: list[int] = []  # of the sections that are open
@@ -159,7 +159,7 @@ def _sections(state: StateCore) -> None:
 
 
 def _columns(state: StateCore) -> None:
-    """Tell a table and its cells the kinds of its columns: ``narrow``, ``text`` or ``numeric``."""
+    """Set the kinds of columns in tables and cells: ``narrow``, ``text`` or ``numeric``."""
     kinds = {"text-align:left": "narrow", "text-align:right": "numeric", None: "text"}
     columns: list[str] = []
     for token in state.tokens:
@@ -179,8 +179,8 @@ def _columns(state: StateCore) -> None:
 
 
 def _neighbours(state: StateCore) -> None:
-    """Give a formula the punctuation behind it, from which no line break parts it, and count the
-    figures that stand side by side."""
+    """Attach the punctuation after a formula to it, so that no line break separates them, and count
+    the figures that stand side by side."""
     for children in (token.children or [] for token in state.tokens):
         for formula, text in pairwise(children):
             if formula.type == "math" and text.type == "text" and text.content.startswith(_CLOSING):

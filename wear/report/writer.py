@@ -17,11 +17,11 @@ from wear.report.text import MARKDOWN, line
 
 
 class Writer(RendererHTML):
-    """Writes tokens by the macros of a template, one for each type; what has none as HTML.
+    """Writes tokens by the macros of a template, one for each type; other types as HTML.
 
-    A macro takes the token. It sees the `document`, the works to cite, `inside`, which writes what
-    stands in a line, and `of_line`, which writes a line of Markdown, a title say. Types of token
-    that are always written the same stand in `plain`.
+    A macro takes the token. It has access to the `document`, the works to cite, `inside`, which
+    writes the tokens of a line, and `of_line`, which writes a line of Markdown, such as a title.
+    `plain` has the types of token that are always written the same.
     """
 
     def __init__(
@@ -41,13 +41,13 @@ class Writer(RendererHTML):
                 rules[kind] = lambda tokens, i, *_, macro=macro: str(macro(tokens[i]))
 
     def written(self, tokens: Sequence[Token]) -> str:
-        """Return a whole text."""
+        """Return the tokens of a document as text."""
         return str(self.render(tokens, MARKDOWN.options, {}))
 
     def inside(self, tokens: Sequence[Token] | None) -> str:
-        """Return what stands in a line."""
+        """Return the tokens of a line as text."""
         return str(self.renderInline(tokens or (), MARKDOWN.options, {}))
 
     def of_line(self, text: str) -> str:
-        """Return a line of Markdown, a title say."""
+        """Return a line of Markdown, such as a title, as text."""
         return self.inside(line(text))

@@ -10,8 +10,9 @@ import pytest
 from wear import figures
 from wear.figure_data import WEAR, Line, Panel
 from wear.report import drawing
-from wear.report.document import Document, Equation, Figure, drawn
-from wear.report.number import Number
+from wear.report.document import DisplayedEquation as Equation
+from wear.report.document import Document, FigureFiles, drawn
+from wear.report.number import TextNumber
 from wear.report.text import parsed
 
 CONDENSED = r"""\left\{\begin{aligned}
@@ -25,11 +26,11 @@ PRESSURE = r"\tfrac12 p_{\max}\left[1+\tanh\left(4-\frac{2}{f_c}\right)\right]"
 TEXT = Path(__file__).with_name("sample.md").read_text(encoding="utf-8")
 
 VALUES = {
-    "rate": Number(4.63554742752e-8, "equation 21 with the data of section 4", 6, "mm"),
-    "closure": Number(1.08e-3, "scene", 4),
-    "many": Number(123456, "scene"),
-    "share": Number(100.0, "count", 3, "%"),
-    "start": Number(-6.123e-4, "claim C24", 3, "mm"),
+    "rate": TextNumber(4.63554742752e-8, "equation 21 with the data of section 4", 6, "mm"),
+    "closure": TextNumber(1.08e-3, "scene", 4),
+    "many": TextNumber(123456, "scene"),
+    "share": TextNumber(100.0, "count", 3, "%"),
+    "start": TextNumber(-6.123e-4, "claim C24", 3, "mm"),
 }
 
 EQUATIONS = (
@@ -46,7 +47,7 @@ EQUATIONS = (
 
 
 @cache
-def _figures() -> Mapping[str, Figure]:
+def _figures() -> Mapping[str, FigureFiles]:
     x = np.linspace(0.0, 100.0, 51)
     lines = (Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1))
     return drawn(

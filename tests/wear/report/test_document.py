@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests.wear.report.conftest import document
 from wear.report.document import Document
 from wear.report.markup import escaped
-from wear.report.number import Number
+from wear.report.number import TextNumber
 from wear.report.text import line, parsed
 
 
@@ -86,7 +86,7 @@ def test_escaped_words_stay_as_they_are(text: str) -> None:
     digits=st.integers(min_value=1, max_value=17),
 )
 def test_a_number_is_shown_to_its_digits(value: float, digits: int) -> None:
-    mantissa, exponent = Number(value, "test", digits).decimal
+    mantissa, exponent = TextNumber(value, "test", digits).decimal
     shown = float(f"{mantissa}e{exponent or 0}")
     assert abs(shown - value) <= 0.5000001 * abs(value) * 10.0 ** (1 - digits)
 
@@ -103,10 +103,10 @@ def test_a_number_is_shown_to_its_digits(value: float, digits: int) -> None:
     ],
 )
 def test_the_form_of_a_number(value: float, digits: int, decimal: tuple[str, int | None]) -> None:
-    assert Number(value, "test", digits).decimal == decimal
+    assert TextNumber(value, "test", digits).decimal == decimal
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])
 def test_a_number_that_is_none_is_refused(value: float) -> None:
     with pytest.raises(ValueError, match="finite"):
-        Number(value, "test", 3)
+        TextNumber(value, "test", 3)

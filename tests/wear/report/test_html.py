@@ -12,7 +12,7 @@ import pytest
 from derive.typeset import mathml
 from tests.wear.report.conftest import document
 from wear.report import html
-from wear.report.number import Number
+from wear.report.number import TextNumber
 
 _VOID = {"meta", "link", "br", "img", "hr", "mspace", "path", "use", "rect", "stop", "circle"}
 
@@ -137,7 +137,7 @@ def test_punctuation_stays_with_its_formula():
 
 
 def test_numbers_of_numpy_are_numbers():
-    values = {"a": Number(np.float64(0.5), "a", 2), "b": Number(np.int64(7), "b")}
+    values = {"a": TextNumber(np.float64(0.5), "a", 2), "b": TextNumber(np.int64(7), "b")}
     shown = html.page(document("# T\n\n{{ a }} {{ b }}", **values))
     assert re.findall(r'value="(.*?)".*?>(.*?)<', shown) == [("0.5", "0.50"), ("7", "7")]
 

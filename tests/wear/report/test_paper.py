@@ -28,7 +28,7 @@ from wear.report import claims, note
 from wear.report.document import Document
 from wear.report.html import page
 from wear.report.note import CUTOFF, required
-from wear.report.number import Number
+from wear.report.number import TextNumber
 from wear.report.paper import paper as written
 from wear.report.publish import typeset
 from wear.report.tex import report
@@ -142,7 +142,7 @@ def test_both_writers_take_it(paper):
     assert all(f"Eq{name}}}" in sources["equations.tex"] for name in ("WearPerCycle", "ContactLaw"))
 
 
-def numbers(paper: Document) -> list[Number]:
+def numbers(paper: Document) -> list[TextNumber]:
     """Return the numbers of the text, in reading order."""
     return [t.meta["number"] for t in inline(paper.tokens) if t.type == "number"]
 

@@ -10,7 +10,7 @@ import pytest
 from derive.files import write_atomically
 from tests.wear.report.conftest import document
 from wear.report import tex
-from wear.report.document import Document, Equation
+from wear.report.document import DisplayedEquation, Document
 from wear.report.publish import typeset, warnings
 from wear.report.tex import escape, verbatim
 
@@ -117,7 +117,7 @@ def test_a_listing_loses_no_character():
 
 
 def test_a_macro_has_letters_only():
-    wrong = {"21": Equation("21", "a", macro="Eq21")}
+    wrong = {"21": DisplayedEquation("21", "a", macro="Eq21")}
     tokens = document("```equations\n21\n```\n").tokens
     with pytest.raises(ValueError, match="Eq21"):
         tex.equations(Document(tokens, wrong, {}))
