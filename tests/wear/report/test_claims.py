@@ -41,7 +41,7 @@ def test_the_ledger_as_json() -> None:
 
 
 def test_true_numbers_would_be_confirmed(monkeypatch: pytest.MonkeyPatch) -> None:
-    true = note.Printed(simulated_mm=1.89e-7, formula_mm=4.64e-8, criterion=4.0)
+    true = note.PrintedValues(simulated_mm=1.89e-7, formula_mm=4.64e-8, criterion=4.0)
     monkeypatch.setattr(claims, "PRINTED", true)
     assert claims.simulated_wear().verdict is Verdict.CONFIRMED
     assert claims.formula_wear().verdict is Verdict.CONFIRMED
