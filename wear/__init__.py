@@ -5,7 +5,7 @@
 >>> [f"{depth:.6e}" for depth in history.u_c]
 ['3.025336e-05', '4.413329e-03']
 
-What is asked for is imported when it is, so that ``import wear`` costs next to nothing.
+Names are imported at their first use, so that ``import wear`` costs next to nothing.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """From a scene to its model: the generated variant that it needs, with its numbers bound.
 
-What a scene leaves out has no symbol, no state and no operation in the code that runs.
+Features that a scene leaves out have no symbol, no state and no operation in the code that runs.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from wear import own_laws
 from wear.faults import UsageError
 from wear.given_load import Area, GivenLoad
-from wear.model import Bound, Model, Real
+from wear.model import BoundModule, Model, Real
 from wear.scene import Scene, as_scene
 from wear.scene.variant import VariantKey
 
@@ -27,11 +27,11 @@ def generated(key: VariantKey) -> ModuleType:
     return import_module(f"wear.generated.{key.law}.{key.module}")
 
 
-def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Bound:
-    """Return a generated module with its numbers; the sign is for a pin that wears."""
+def bound(module: ModuleType, numbers: Mapping[str, Real], pin_wear_sign: Real) -> BoundModule:
+    """Return a generated module with its numbers; the sign is that of the wear of the pin."""
     data = module.Parameters._make(numbers[name] for name in module.Parameters._fields)
     signs = (pin_wear_sign,) if "K_a" in module.Parameters._fields else ()
-    return Bound(module, module.bind(data, *signs), data, signs)
+    return BoundModule(module, module.bind(data, *signs), data, signs)
 
 
 def _bind(key: VariantKey, numbers: Mapping[str, Real], pin_wear_sign: Real) -> Model:

@@ -7,13 +7,13 @@ Overview
     ``int r exp(A) <= d <= int r exp(B)`` with A, B the integrals of a, b over the rest of the
     cycle.  The map u -> u + d increases, so lower and upper bounds run on by themselves.
 
-    All of it is evaluated in ball arithmetic (Arb, through python-flint) on the generated rate
-    and slope: every rounding is inside the bounds.  G is a mean over equidistant phases.  For a
-    rate that is analytic and bounded by its largest value in the strip |Im phase| <= w this is
-    off by at most 2/(exp(2 pi w m) - 1) of it (Trefethen and Weideman, SIAM Review 56 (2014)
+    Everything is evaluated in ball arithmetic (Arb, through python-flint) on the generated rate
+    and slope: every rounding error is inside the bounds.  G is a mean over equidistant phases.  For
+    a rate that is analytic and bounded by its largest value in the strip |Im phase| <= w its
+    relative error is at most 2/(exp(2 pi w m) - 1) (Trefethen and Weideman, SIAM Review 56 (2014)
     385, theorem 3.2).
 Key results
-    wear_bounds     bounds for the load as it is
+    wear_bounds     bounds for the given load
     static_bounds   bounds from the least and the largest load alone
 References
     Comparison principle: derive's monotonicity; strip of analyticity: its id ``strip``.
@@ -56,8 +56,8 @@ class Enclosure(NamedTuple):
     high: float
 
 
-class _Range(NamedTuple):
-    """What holds for every wear between ``low`` and ``high``."""
+class _WearRange(NamedTuple):
+    """Bounds that hold for every wear between ``low`` and ``high``."""
 
     low: Ball
     high: Ball
@@ -71,7 +71,7 @@ class _Range(NamedTuple):
         return min((frozen + self.quadrature + self.most_change).upper(), self.largest)
 
     def least(self, frozen: Ball) -> Ball:
-        """Return a lower bound of it, not negative."""
+        """Return a lower bound of the same increment, not negative."""
         return max((frozen - self.quadrature + self.least_change).lower(), 0 * frozen)
 
 
@@ -84,8 +84,8 @@ def wear_bounds(scene: Scene, cycles: Sequence[int]) -> tuple[Enclosure, ...]:
     Raises
     ------
     UsageError
-        for a cutoff, a law other than tanh, or a load with kinks: `static_bounds` serves those
-        that have none of the former.
+        for loss of contact, a law other than tanh, or a load with kinks; `static_bounds` admits
+        kinks.
 
     >>> from wear import load_scene
     >>> low, high = wear_bounds(load_scene("section4"), [1])[0]
@@ -162,26 +162,26 @@ class _Flow(NamedTuple):
         )
 
     def increment(self, u: Ball) -> Ball:
-        """Return the wear of a cycle with the wear frozen at u, but for the error of quadrature."""
+        """Return the wear of a cycle with the wear frozen at u, without the quadrature error."""
         rates = self.module.rate(u, self.loads, self.constants)
         return self.scale * rates.sum() / len(rates)
 
     def rate(self, wear: Ball, load: Ball) -> Ball:
-        """Return the wear rate at one load; all that is possible where the clamp of exp is
+        """Return the wear rate at one load; all possible rates where the clamp of exp is
         undecided."""
-        anything = self.constants.largest_rate * type(wear)(0).union(type(wear)(1))
+        possible = self.constants.largest_rate * type(wear)(0).union(type(wear)(1))
         try:
-            found = self.module.rate(wear, load, self.constants)
+            rate = self.module.rate(wear, load, self.constants)
         except TypeError:  # the minimum of a ball and a number was the number
-            return anything
-        return found if found.is_finite() else anything
+            return possible
+        return rate if rate.is_finite() else possible
 
     def roughness(self, wear: Ball) -> Ball:
-        """Equivalent roughness."""
+        """Return the equivalent roughness."""
         return self.module.fields(wear, self.loads[0], self.constants).sigma
 
-    def range(self, low: Ball, high: Ball) -> _Range:
-        """Return what holds for every wear between two."""
+    def range(self, low: Ball, high: Ball) -> _WearRange:
+        """Return the bounds for every wear between two."""
         from flint import arb
 
         wear, weight = low.union(high), self.scale / len(self.panels)
@@ -190,7 +190,7 @@ class _Flow(NamedTuple):
         least = _change(rates, [slope.lower() for slope in slopes]).lower()
         most = _change(rates, [slope.upper() for slope in slopes]).upper()
         error = self.largest * (self._quadrature(wear) + arb("1e-300"))  # the clamp in rate
-        return _Range(low, high, least, most, error.upper(), self.largest.upper())
+        return _WearRange(low, high, least, most, error.upper(), self.largest.upper())
 
     def _quadrature(self, wear: Ball) -> Ball:
         """Return the relative error of the mean over equidistant phases."""
@@ -209,7 +209,7 @@ class _Flow(NamedTuple):
 
 
 def _change(rates: Balls, slopes: Sequence[Ball]) -> Ball:
-    """Return the integral of r (exp(A) - 1) over a cycle, A that of the slope from there on."""
+    """Return the integral of r (exp(A) - 1) over a cycle, A that of the slope over its rest."""
     from flint import arb
 
     rest, change = arb(0), arb(0)
@@ -231,7 +231,7 @@ def _terms(load: Any) -> tuple[float, list[tuple[int, float, float]]]:
 
 
 def _load(mean: Ball, wave: list[tuple[int, Ball, Ball]], turn: Ball) -> Ball:
-    """U_a where the phase is turn/2."""
+    """Return U_a at the phase turn/2."""
     return sum(
         (c * (j * turn).cos_pi() + s * (j * turn).sin_pi() for j, c, s in wave),
         mean,
@@ -242,9 +242,9 @@ def _run(flow: _Flow, cycles: Sequence[int], upper: bool) -> dict[int, float]:
     """Return the bound after each number of cycles, rounded outwards."""
     from flint import arb
 
-    wear, known, found = arb(0), None, dict[int, float]()
-    wanted = set(cycles)
-    for cycle in range(1, max(wanted) + 1):
+    wear, known, bounds = arb(0), None, dict[int, float]()
+    marks = set(cycles)
+    for cycle in range(1, max(marks) + 1):
         frozen = flow.increment(wear)
         if frozen < SMALL_STEP * flow.roughness(wear):
             known = _covering(flow, known, wear, frozen)
@@ -255,14 +255,14 @@ def _run(flow: _Flow, cycles: Sequence[int], upper: bool) -> dict[int, float]:
         else:
             step = known.most(frozen) if upper else known.least(frozen)
             wear = (wear + step).upper() if upper else (wear + step).lower()
-        if cycle in wanted:
+        if cycle in marks:
             outward = math.inf if upper else 0.0
-            found[cycle] = math.nextafter(float(wear), outward)
-    return found
+            bounds[cycle] = math.nextafter(float(wear), outward)
+    return bounds
 
 
 def _march(flow: _Flow, wear: Ball, upper: bool) -> Ball:
-    """Go through one cycle panel by panel, where wear is fast: crude, but never vacuous."""
+    """Return the bound after a cycle of fast wear, panel by panel: crude, but never vacuous."""
     share = flow.scale / FINE_PANELS
     ceiling = (flow.largest / FINE_PANELS).upper()
     for load in flow.fine_panels:
@@ -272,11 +272,11 @@ def _march(flow: _Flow, wear: Ball, upper: bool) -> Ball:
     return wear
 
 
-def _covering(flow: _Flow, known: _Range | None, wear: Ball, frozen: Ball) -> _Range | None:
+def _covering(flow: _Flow, known: _WearRange | None, wear: Ball, frozen: Ball) -> _WearRange | None:
     """Return a range that the wear does not leave in the cycle that starts at ``wear``, or None.
 
-    It cannot leave before the bound that holds inside the range reaches the range's end.  The
-    range is kept a little wider than a cycle, so that it serves for several.
+    The wear stays inside while the bound for the range is below the end of the range.  The range is
+    a little wider than the wear of a cycle, so that it serves for several.
     """
     if known is not None and wear >= known.low and wear + known.most(frozen) < known.high:
         return known

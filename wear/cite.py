@@ -1,6 +1,6 @@
-"""What to cite: the note, this software, and the methods and libraries that a result rests on.
+"""References to cite: the note, this software, and the methods and libraries behind a result.
 
-The entries stand in ``data/references.bib``, each below a comment that says when to cite it.
+The entries are in ``data/references.bib``, each below a comment on its purpose.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _LETTERS = {r"{\o}": "ø", r"{\'e}": "é", r"{\`e}": "è", r"\"o": "ö", "--": "
 
 
 class Reference(NamedTuple):
-    """A bibliographic entry: BibTeX kind, key and fields; `purpose` says when to cite it."""
+    """A bibliographic entry: BibTeX kind, key and fields, and the `purpose` of citing it."""
 
     key: str
     kind: str
@@ -35,7 +35,7 @@ class Reference(NamedTuple):
 
 
 def listed(reference: Reference) -> str:
-    """Return author, title, where and when, and what the work stands for here.
+    """Return author, title, publication and year of a work, and its purpose here.
 
     >>> listed(REFERENCES["greenwood1966"])[:44]
     'Greenwood, J. A., Williamson, J. B. P.: Cont'
@@ -46,7 +46,7 @@ def listed(reference: Reference) -> str:
 
 
 def bibtex(reference: Reference) -> str:
-    """Return an entry as BibTeX, with a comment that says when to cite it.
+    """Return an entry as BibTeX, with a comment on its purpose.
 
     >>> print(bibtex(REFERENCES["filippov1988"]))
     % sliding along the end of contact
@@ -62,9 +62,9 @@ def bibtex(reference: Reference) -> str:
 
 
 def _entries(text: str) -> Iterator[Reference]:
-    for found in _ENTRY.finditer(text):
-        fields = dict(_FIELD.findall(found["fields"]))
-        yield Reference(found["key"], found["kind"], found["purpose"], fields)
+    for match in _ENTRY.finditer(text):
+        fields = dict(_FIELD.findall(match["fields"]))
+        yield Reference(match["key"], match["kind"], match["purpose"], fields)
 
 
 _BIB = files("wear").joinpath("data", "references.bib").read_text(encoding="utf-8")

@@ -2,9 +2,9 @@
 
 Overview
     A cycle is cut at the kinks and turning points of its load and sampled at the nodes of a Gauss
-    rule, with the wear that it has made up to there. The mean follows from the wear of the cycle by
-    Archard's law, Eq. (5), or where that is lost in rounding from the rule; the peak is the largest
-    value of the interpolant; contact begins and ends at roots of the margin.
+    rule, with the wear at each node. The mean follows from the wear of the cycle by Archard's law,
+    Eq. (5), or from the rule where rounding errors dominate that; the peak is the largest value of
+    the interpolant; contact begins and ends at roots of the margin.
 Key results
     cycle_pressures    all three for many cycles of a scene
 """
@@ -37,7 +37,7 @@ FINE = 4 * NODES  # points of an interval at which its interpolant is searched f
 
 class CyclePressures(NamedTuple):
     """Peak and mean pressure (n,) in MPa over n cycles, and the share (n,) of the period with
-    p > 0; no numbers where there is no such cycle."""
+    p > 0; NaN where there is no such cycle."""
 
     peak: FloatArray
     mean: FloatArray
@@ -47,23 +47,23 @@ class CyclePressures(NamedTuple):
 def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePressures:
     """Return the pressures over the cycles that end after each of these numbers of cycles (n,).
 
-    There is no such cycle before the first, nor under a load that does not repeat: no number.
+    They are NaN before the first cycle, and under a load that is not periodic.
     """
-    found = np.full((3, len(cycles)), np.nan)
-    begun = np.unique(cycles[cycles > 0]) - 1.0
-    if isinstance(scene.load, HistoryLoad) or not len(begun):
-        return CyclePressures(*found)
+    pressures = np.full((3, len(cycles)), np.nan)
+    starts = np.unique(cycles[cycles > 0]) - 1.0
+    if isinstance(scene.load, HistoryLoad) or not len(starts):
+        return CyclePressures(*pressures)
     model = bind(scene)
-    over = _mesh(scene)
-    phases = np.concatenate([over.edges, over.phases.ravel()])
-    per_cycle = np.full((3, len(begun)), np.nan)
+    on = _mesh(scene)
+    phases = np.concatenate([on.edges, on.phases.ravel()])
+    per_cycle = np.full((3, len(starts)), np.nan)
     rate = _wear_of_unit(model, scene)
-    for part in fields_inside(model, scene.load, begun, phases, rtol):
-        rows = np.searchsorted(begun, part.cycles)
+    for part in fields_inside(model, scene.load, starts, phases, rtol):
+        rows = np.searchsorted(starts, part.cycles)
         periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
-        per_cycle[:, rows] = _of(part, over, rate * periods, scene.given_load)
-    found[:, cycles > 0] = per_cycle[:, np.searchsorted(begun, cycles[cycles > 0] - 1.0)]
-    return CyclePressures(*found)
+        per_cycle[:, rows] = _pressures(part, on, rate * periods, scene.given_load)
+    pressures[:, cycles > 0] = per_cycle[:, np.searchsorted(starts, cycles[cycles > 0] - 1.0)]
+    return CyclePressures(*pressures)
 
 
 def _mesh(scene: Scene) -> Mesh:
@@ -76,35 +76,39 @@ def _mesh(scene: Scene) -> Mesh:
 
 
 def _wear_of_unit(model: Model, scene: Scene) -> float:
-    """Return the wear rate per pressure, Eq. (5), mm/s per MPa: that of the closed gap."""
+    """Return the wear rate per pressure, Eq. (5), in mm/s per MPa, from that at zero closure."""
     closed = np.array(scene.closure)
     rate, pressure = model.rate(np.array(0.0), closed), model.fields(np.array(0.0), closed).p
     return float(rate) / float(pressure)
 
 
-class _Sampled(NamedTuple):
+class _CycleSamples(NamedTuple):
     """A quantity of n cycles at the edges (n, q + 1) and nodes (n, q, m) of a mesh."""
 
     edges: FloatArray
     nodes: FloatArray
 
     def fine(self, over: Mesh, points: int = FINE) -> FloatArray:
-        """Return the interpolant of each interval at its ends and between, (n, q, points)."""
+        """Return the interpolant of each interval at `points` + 1 points, its ends among them."""
         m = self.nodes.shape[-1]
         basis = legvander(2.0 * np.linspace(0.0, 1.0, points + 1)[1:-1] - 1.0, m - 1)
         inner = self.nodes @ over.rule.coefficients.T @ basis.T
         return np.concatenate([self.edges[:, :-1, None], inner, self.edges[:, 1:, None]], axis=-1)
 
 
-def _sampled(values: FloatArray, over: Mesh) -> _Sampled:
+def _sampled(values: FloatArray, over: Mesh) -> _CycleSamples:
     edges = len(over.edges)
-    return _Sampled(values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape))
+    return _CycleSamples(
+        values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape)
+    )
 
 
-def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) -> CyclePressures:
-    """Peak, mean and share of contact of cycles sampled at the edges and nodes; `wear_of_unit` is
-    the wear of each (n,) under a mean pressure of 1 MPa, mm. A pressure that is given is smooth
-    between the edges also where it vanishes."""
+def _pressures(
+    part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool
+) -> CyclePressures:
+    """Return peak, mean and contact fraction of cycles sampled at the edges and nodes;
+    `wear_of_unit` is the wear of each (n,) under a mean pressure of 1 MPa, mm. A given pressure is
+    smooth between the edges even where it vanishes."""
     fields, p = part.fields, _sampled(part.fields.p, over)
     touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
     whole = np.min(touching.nodes, axis=-1) > 0.0
@@ -121,8 +125,8 @@ def _of(part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool) ->
     smooth = whole & (tail <= RESOLVED * largest[:, None])
     inside = np.max(np.where(smooth, _largest(p.fine(over)), 0.0), axis=1)
     peak = np.where(fraction > 0.0, np.maximum(largest, inside), 0.0)
-    missed = np.where(whole, tail, np.max(p.nodes, axis=-1)) @ over.lengths
-    return CyclePressures(peak, _mean(part, p, over, missed, wear_of_unit), fraction)
+    rule_error = np.where(whole, tail, np.max(p.nodes, axis=-1)) @ over.lengths
+    return CyclePressures(peak, _mean(part, p, over, rule_error, wear_of_unit), fraction)
 
 
 def _largest(values: FloatArray) -> FloatArray:
@@ -138,18 +142,19 @@ def _largest(values: FloatArray) -> FloatArray:
 
 
 def _mean(
-    part: Inside, p: _Sampled, over: Mesh, missed: FloatArray, wear_of_unit: FloatArray
+    part: Inside, p: _CycleSamples, over: Mesh, rule_error: FloatArray, wear_of_unit: FloatArray
 ) -> FloatArray:
-    """From the wear of the cycle, or by the rule where that has `missed` (n,) less, MPa."""
+    """Return the mean pressure (n,) in MPa from the wear of the cycle, or by the rule where its
+    `rule_error` (n,) is smaller."""
     last = len(over.edges) - 1
-    worn = part.u[:, last] - part.u[:, 0]
-    by_wear, by_rule = worn / wear_of_unit, p.nodes @ over.rule.weights @ over.lengths
-    lost = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
-    return np.where(lost < missed, by_wear, by_rule)
+    increment = part.u[:, last] - part.u[:, 0]
+    by_wear, by_rule = increment / wear_of_unit, p.nodes @ over.rule.weights @ over.lengths
+    wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
+    return np.where(wear_error < rule_error, by_wear, by_rule)
 
 
 def _share_above_zero(
-    margin: _Sampled, touching: _Sampled, over: Mesh, whole: NDArray[np.bool_]
+    margin: _CycleSamples, touching: _CycleSamples, over: Mesh, whole: NDArray[np.bool_]
 ) -> FloatArray:
     """Return the share (n,) of the cycle in which the margin is positive, or contact is held at
     zero."""

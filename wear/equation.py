@@ -21,8 +21,8 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 from wear.scene import Scene
 
-FAR = 1e12  # roughnesses of wear: further than any count goes
-APART = 1e-4  # of the roughness: displacements between which the rate's steepness is taken
+FAR = 1e12  # roughnesses of wear: more than in any count
+APART = 1e-4  # of the roughness: half the difference of displacements for the slope of the rate
 NEARLY = 0.99  # of the wear at which the roughness vanishes
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
@@ -37,7 +37,7 @@ class WearEquation:
 
     @property
     def scenes(self) -> int:
-        """Return how many scenes there are."""
+        """Return the number of scenes."""
         return len(self.loads)
 
     def take(self, rows: slice | IntArray) -> WearEquation:
@@ -64,8 +64,8 @@ class WearEquation:
         near: Tangent | None = None,
     ) -> FloatArray:
         """Return the wear in mm per cycle, times `lengths`, at wear (scenes, starts, intervals,
-        nodes) under a displacement, both in mm. On springs the pressure is sought from that at the
-        end of a tangent."""
+        nodes) under a displacement, both in mm. On a compliant support the pressure is sought from
+        that at the end of a tangent."""
         times = self._period * lengths
         known = near.end / times if self.model.compliant and near is not None else None
         rate: FloatArray = self._model.rate(u, forcing, known)
@@ -78,7 +78,7 @@ class WearEquation:
         return slope
 
     def roundoff(self, u: FloatArray) -> FloatArray:
-        """Return the relative error (scenes, k) by rounding of the rate at the peak of the load."""
+        """Return the relative rounding error (scenes, k) of the rate at the peak of the load."""
         peak = np.array([load.maximum for load in self.loads])[:, None] + np.zeros_like(u)
         return roundoff(self.model, peak, u)
 
@@ -90,19 +90,19 @@ class WearEquation:
 
     @cached_property
     def limit(self) -> FloatArray:
-        """Return nearly the wear (scenes,) in mm at which the equivalent roughness vanishes,
+        """Return `NEARLY` the wear (scenes,) in mm at which the equivalent roughness vanishes,
         infinite if it does not.
 
         The roughness of one solid is linear in the wear; that of two never vanishes.
         """
-        upto = FAR * self.scale
-        start, end = 4 * self.scale, self._roughness(upto[:, None])
-        lost = np.where(end <= 0, start - end, 1.0)
-        return np.where(end <= 0, NEARLY * upto * start / lost, np.inf)
+        far = FAR * self.scale
+        start, end = 4 * self.scale, self._roughness(far[:, None])
+        decrease = np.where(end <= 0, start - end, 1.0)
+        return np.where(end <= 0, NEARLY * far * start / decrease, np.inf)
 
     @cached_property
     def breakpoints(self) -> list[FloatArray]:
-        """Return where the load of each scene cuts the cycle."""
+        """Return the phases at which the load of each scene cuts the cycle."""
         return [breakpoints(load) for load in self.loads]
 
     def _roughness(self, u: FloatArray) -> FloatArray:
@@ -124,14 +124,15 @@ class WearEquation:
 
 
 def equation_of(scenes: Sequence[Scene]) -> WearEquation:
-    """Return the equation of scenes of one variant, whose loads repeat."""
+    """Return the equation of scenes of one variant with periodic loads."""
     loads = tuple(scene.periodic_load for scene in scenes)
     return WearEquation(bind(scenes[0]) if len(scenes) == 1 else bind_many(scenes), loads)
 
 
 def breakpoints(load: Load) -> FloatArray:
-    """Return the phases from 0 to 1 that no node may straddle (kinks), at which nodes should
-    cluster (peaks), or where a smooth pulse ends, about: a quarter of the way to the next peak."""
+    """Return the phases from 0 to 1 that intervals may not straddle (kinks), near which nodes
+    should cluster (peaks), or where a smooth pulse ends (about a quarter of the way to the next
+    peak)."""
     inner = {*load.kinks, *load.peaks}
     if not load.kinks and load.minimum < load.maximum:
         for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
@@ -141,23 +142,24 @@ def breakpoints(load: Load) -> FloatArray:
 
 
 def growth(model: Model, load: Load, start: float, end: float) -> float:
-    """Return by how much a small difference in wear grows between `start` and `end`; at least 1."""
+    """Return the factor, at least 1, by which a small difference in wear grows from `start` to
+    `end`."""
     U_a = load(PHASES)
     before, after = (float(np.mean(model.rate(u, U_a))) for u in (start, end))
     return max(1.0, after / before) if before > 0.0 else 1.0
 
 
 def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:
-    """Return the relative error of the rate by rounding: its condition with respect to the terms of
-    the closure and the roughness, of which the contact law takes the quotient."""
+    """Return the relative rounding error of the rate: its condition with respect to the terms of
+    the closure and the roughness, whose quotient is the argument of the contact law."""
     fields = model.fields(wear, displacement)
-    sigma, fresh = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
-    cancelled = (fresh + np.abs(sigma - fresh)) / sigma  # where roughness vanishes
-    terms = np.abs(fields.h) * (1 + cancelled) + np.abs(displacement)
+    sigma, initial = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
+    cancellation = (initial + np.abs(sigma - initial)) / sigma  # where roughness vanishes
+    terms = np.abs(fields.h) * (1 + cancellation) + np.abs(displacement)
     terms += np.abs(getattr(fields, "U_c", 0.0))
     apart = APART * sigma
     more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
-    lost = SMALLEST / np.maximum(less, SMALLEST)
-    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + lost
+    underflow = SMALLEST / np.maximum(less, SMALLEST)
+    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + underflow
     return result

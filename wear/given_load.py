@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.generated import reaction
-from wear.model import Fields, Model, Real, Summed, as_it_is
+from wear.model import Fields, Model, Real, Summation, unchanged
 
 
 class Area(NamedTuple):
@@ -60,7 +60,7 @@ class GivenLoad(Model):
     def law_rate_and_slope(self, u: Real, R_a: Real) -> tuple[Real, Real]:
         return self.rate(u, R_a), self.slope(u, R_a)
 
-    def rate_gradient(self, u: Real, R_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
+    def rate_gradient(self, u: Real, R_a: Real, summed: Summation = unchanged) -> dict[str, Real]:
         """Return the derivatives of the wear rate with respect to every physical parameter, by
         symbol, and to the load as "U_a"; those with respect to parameters `summed`."""
         area, per_pressure = self.area._asdict(), self.module.rate(1.0, self.constants)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from wear import history_files
 from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
-from wear.history_files import States
+from wear.history_files import StateTable
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
 from wear.scene import Scene
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 MOST_SHOWN = 50  # rows in a notebook
 ALWAYS = tuple(COLUMNS)[1:5]
-"""Wear and roughness, which JSON has also of a pin that does not wear, or is smooth."""
+"""Wear and roughness, which JSON also has for a pin that does not wear or is smooth."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,7 +41,7 @@ class History:
     definition
         The scene.
     cycles
-        Numbers of cycles in the order of the request (of a run that was stopped: those reached).
+        Numbers of cycles in the order of the request; those reached if the run was stopped.
     u_c, u_a, sigma_c, sigma_a, h
         Wear and roughness of bearing and pin, and the closure, in mm, along `cycles`; None where
         the pin does not wear, or is smooth.
@@ -52,11 +52,11 @@ class History:
     error
         Estimated relative error of `u_c`; NaN where there is no estimate.
     method, rtol, seconds
-        How it was solved, to what requested relative accuracy, and how long that took.
+        The method, the requested relative accuracy, and the time of the run in seconds.
     cost
         `cycles_integrated` and `rhs_evaluations`, those for the error estimate included.
     notices
-        What a reader should know, in sentences.
+        Remarks on the scene and the result, in sentences.
     stopped
         Whether the run ended before its last cycle.
     """
@@ -106,25 +106,25 @@ class History:
 
     @cached_property
     def pressures(self) -> CyclePressures:
-        """Peak, mean and share of contact of the cycle that ends after each of the `cycles`.
+        """Return peak, mean and contact fraction of the cycle that ends after each of the `cycles`.
 
-        Computed when asked for; no numbers where they could not be found: before the first cycle,
-        under a load that does not repeat, of a run that was stopped.
+        They are computed at the first use, and NaN where they are unknown: before the first cycle,
+        under a load that is not periodic, and for a run that was stopped.
         """
-        nothing = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
+        unknown = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
         if self.stopped:
-            return nothing
+            return unknown
         try:
             return cycle_pressures(self.definition, self.cycles.astype(float), self.rtol)
         except (ArithmeticError, ValueError):
-            return nothing
+            return unknown
 
     def columns(self) -> dict[str, FloatArray]:
         """Return the quantities along `cycles` by their names in files and JSON, in that order."""
         peak, mean, fraction = self.pressures
         scene, cycles = self.definition, self.cycles.tolist()
         work = friction_work(scene, cycles, mean)
-        found = columns_of(self) | {
+        columns = columns_of(self) | {
             "peak_pressure_MPa": peak,
             "mean_pressure_MPa": mean,
             "contact_fraction": fraction,
@@ -134,10 +134,10 @@ class History:
             "friction_work_mJ_per_mm2": work,
             "friction_work_mJ": None if work is None else reaction_of(scene, work),
         }
-        return {name: found[name] for name in COLUMNS if found.get(name) is not None}
+        return {name: columns[name] for name in COLUMNS if columns.get(name) is not None}
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return a row a number of cycles, with the columns of the files; needs pandas."""
+        """Return a row for each number of cycles, with the columns of the files; needs pandas."""
         import pandas
 
         return pandas.DataFrame(self.columns(), index=pandas.Index(self.cycles, name="cycle"))
@@ -146,11 +146,11 @@ class History:
         """Return the columns along `cycle`, with units and meanings; needs xarray."""
         import xarray
 
-        made = xarray.Dataset(coords={"cycle": self.cycles}, attrs=dict(self._attributes()))
+        dataset = xarray.Dataset(coords={"cycle": self.cycles}, attrs=dict(self._attributes()))
         for name, values in self.columns().items():
             about = {"units": unit_of(name) or "1", "long_name": COLUMNS[name].meaning}
-            made[name] = ("cycle", values, about)
-        return made
+            dataset[name] = ("cycle", values, about)
+        return dataset
 
     def plot(self, *, logarithmic: bool = True) -> Figure:
         """Return a Matplotlib figure of wear, roughness and pressure over the cycles."""
@@ -166,7 +166,7 @@ class History:
         return f"<History of {self.scene!r}: {reached}; {self.method}, rtol {self.rtol:g}>"
 
     def _repr_html_(self) -> str:
-        """Return the table that a notebook shows."""
+        """Return the table for a notebook."""
         columns = self.columns()
         heads = "".join(f"<th>{name}</th>" for name in columns)
         rows = "".join(
@@ -181,8 +181,8 @@ class History:
         return f"<p>{title}</p><table><tr><th>cycle</th>{heads}</tr>{rows}</table>{rest}"
 
     def as_json(self) -> dict[str, Any]:
-        """Return the document of `wear run --json`, in plain values; what does not exist is None,
-        also along the cycles the wear and roughness of a pin that has none."""
+        """Return the document of `wear run --json`, in plain values; missing values are None, as
+        along the cycles the wear and roughness of a pin that has none."""
         head = {
             "scene": self.scene,
             "model": {"variant": self.variant, "operations": dict(self.operations)},
@@ -197,8 +197,8 @@ class History:
         return head | lists | tail
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write a `.csv` (floats to round-trip) or `.nc` (NetCDF-3) file, whole or not at all, with
-        the scene and the method.
+        """Write a `.csv` (floats round-trip) or `.nc` (NetCDF-3) file, completely or not at all,
+        with the scene and the method.
 
         Raises
         ------
@@ -207,7 +207,7 @@ class History:
         OSError
             if the file cannot be written.
         """
-        history_files.write([States(self.cycles, self.columns())], path, self._attributes())
+        history_files.write([StateTable(self.cycles, self.columns())], path, self._attributes())
 
     def _attributes(self) -> history_files.Attributes:
         return {

@@ -1,4 +1,4 @@
-"""Results as files: CSV and NetCDF-3, whole or not at all."""
+"""Result files: CSV and NetCDF-3, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -17,34 +17,36 @@ from wear.quantities import COLUMNS, unit_of
 from wear.words import is_path
 
 Attributes = Mapping[str, str]
-"""What describes a result, each in one line and none empty."""
+"""The description of a result, each value in one line and none empty."""
 
-_NUMBER_OF_RECORDS = 4  # where it stands in a NetCDF-3 file, behind "CDF" and the version
+_NUMBER_OF_RECORDS = 4  # its place in a NetCDF-3 file, after "CDF" and the version
 
 
-class States(NamedTuple):
-    """A part of a result: `columns` by name, (n,) or (n, m), along whole `cycles` (n,) and, if any,
-    `phases` (m,) of each."""
+class StateTable(NamedTuple):
+    """A part of a result: `columns` by name, (n,) or (n, m), along whole `cycles` (n,) and, if
+    given, the `phases` (m,) of each."""
 
     cycles: NDArray[Any]
     columns: Mapping[str, NDArray[Any]]
     phases: NDArray[np.float64] | None = None
 
     def by_name(self) -> dict[str, list[Any]]:
-        """Return cycle, phase and columns, a value a state."""
-        found: dict[str, NDArray[Any]] = {"cycle": self.cycles.astype(np.int64)[:, None]}
+        """Return cycle, phase and columns, with one value for each state."""
+        arrays: dict[str, NDArray[Any]] = {"cycle": self.cycles.astype(np.int64)[:, None]}
         if self.phases is not None:
-            found["phase"] = self.phases[None]
-        found |= {
+            arrays["phase"] = self.phases[None]
+        arrays |= {
             name: values if values.ndim == 2 else values[:, None]
             for name, values in self.columns.items()
         }
-        whole = np.broadcast_arrays(*found.values())
-        return {name: values.ravel().tolist() for name, values in zip(found, whole, strict=True)}
+        full = np.broadcast_arrays(*arrays.values())
+        return {name: values.ravel().tolist() for name, values in zip(arrays, full, strict=True)}
 
 
-def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes) -> None:
-    """Write a `.csv` or `.nc` (NetCDF-3) file, a part at a time, whole or not at all.
+def write(
+    parts: Iterable[StateTable], path: str | os.PathLike[str], attributes: Attributes
+) -> None:
+    """Write a `.csv` or `.nc` (NetCDF-3) file, a part at a time, completely or not at all.
 
     Raises
     ------
@@ -61,8 +63,8 @@ def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Att
         writers[suffix](parts, draft, attributes)
 
 
-def _write_lines(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
-    """Write comments (`# key: value`), a header and a line a state."""
+def _write_lines(parts: Iterable[StateTable], path: Path, attributes: Attributes) -> None:
+    """Write comments (`# key: value`), a header and a line for each state."""
     with path.open("w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
         writer = csv.writer(file, lineterminator="\n")
@@ -73,11 +75,11 @@ def _write_lines(parts: Iterable[States], path: Path, attributes: Attributes) ->
             writer.writerows(zip(*columns.values(), strict=True))
 
 
-def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
+def _write_records(parts: Iterable[StateTable], path: Path, attributes: Attributes) -> None:
     """Write variables with the record dimension `cycle` and, if there is one, `phase`.
 
-    SciPy writes the header with one blank record, which those of all parts take the place of; how
-    many they are is put in its place in the end. NetCDF-3 has no 64-bit integers: cycles are
+    SciPy writes the header with one blank record, which the records of all parts replace; their
+    number is written into the header at the end. NetCDF-3 has no 64-bit integers: cycles are
     doubles, exact up to 2**53.
     """
     rows = 0
@@ -94,8 +96,8 @@ def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) 
         file.write(rows.to_bytes(4, "big"))
 
 
-def _write_header(part: States, path: Path, attributes: Attributes) -> None:
-    """Write what describes a result, and one record of zeros."""
+def _write_header(part: StateTable, path: Path, attributes: Attributes) -> None:
+    """Write the description of a result, and one record of zeros."""
     from scipy.io import netcdf_file
 
     with netcdf_file(path, "w", version=2) as file:  # offsets of 64 bits: files of any size

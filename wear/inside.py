@@ -1,4 +1,4 @@
-"""Inside the cycles: the wear and the fields at any phases of any cycles."""
+"""The states inside cycles: the wear and the fields at any phases of any cycles."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ from wear.quantities import columns_of
 from wear.states import fields_under_load
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
-BATCH = 10_000  # cycles of which the wear at the start is found at once
+BATCH = 10_000  # cycles whose wear at the start is computed at once
 
 
 class Inside(NamedTuple):
@@ -48,26 +48,26 @@ def fields_inside(
     rtol: float = 1e-12,
     chunk: int = CHUNK,
 ) -> Iterator[Inside]:
-    """The state at every phase of every cycle, some `chunk` states at a time.
+    """Yield the state at every phase of every cycle, about `chunk` states at a time.
 
     Parameters
     ----------
     load
-        One that repeats, or blocks of such.
+        A periodic load, or blocks of such loads.
     cycles
-        Whole numbers of cycles (n,) that lie behind, each less than the load has.
+        Completed whole numbers of cycles (n,), each less than the load has.
     phases
-        In [0, 1], (m,), of the cycle that begins then.
+        Phases in [0, 1], (m,), of the cycle that begins then.
 
     Yields
     ------
     Inside
-        rows of the history, by rising numbers of cycles; memory is bounded by the chunk.
+        rows of the history, in ascending numbers of cycles; memory is bounded by the chunk.
 
     Raises
     ------
     AccuracyError
-        if the wear that a block begins with could not be found.
+        if the wear at the start of a block could not be computed.
     UsageError
         if the cycles cannot be counted.
     """
@@ -75,63 +75,63 @@ def fields_inside(
         raise UsageError("the load does not repeat: its cycles cannot be counted")
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
     rows = max(1, chunk // max(1, len(phases)))
-    for stretch in stages(model, load, cycles[-1] + 1.0, rtol):
-        for begin, end, within in _dense(model, stretch, phases, rtol, cycles):
-            wanted = cycles[(cycles >= begin) & (cycles < end)]
-            part = _Part(model, stretch, within, phases, begin)
-            for at in range(0, len(wanted), BATCH):
-                yield from part.rows(wanted[at : at + BATCH], rows, rtol)
-    if stretch.ends <= cycles[-1]:
-        raise AccuracyError(f"the wear after {stretch.ends:.0f} cycles could not be found")
+    for stage in stages(model, load, cycles[-1] + 1.0, rtol):
+        for begin, end, output in _dense(model, stage, phases, rtol, cycles):
+            covered = cycles[(cycles >= begin) & (cycles < end)]
+            part = _DensePart(model, stage, output, phases, begin)
+            for at in range(0, len(covered), BATCH):
+                yield from part.rows(covered[at : at + BATCH], rows, rtol)
+    if stage.ends <= cycles[-1]:
+        raise AccuracyError(f"the wear after {stage.ends:.0f} cycles could not be found")
 
 
 def _dense(
-    model: Model, stretch: Stage, phases: FloatArray, rtol: float, cycles: FloatArray
+    model: Model, stage: Stage, phases: FloatArray, rtol: float, cycles: FloatArray
 ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
-    """Yield the parts of a stretch in which some of the `cycles` lie: from which cycle to which,
-    that excluded, and what these add up to the phases."""
+    """Yield the parts of a stage that contain some of the `cycles`: the first cycle, the one after
+    the last, and the dense output at the phases."""
     if model.ends_at_3_sigma:
-        if np.any((cycles >= stretch.begins) & (cycles < stretch.ends)):
-            within = switched_dense_output(model, stretch.load, phases, rtol)
-            yield stretch.begins, stretch.ends, within
+        if np.any((cycles >= stage.begins) & (cycles < stage.ends)):
+            output = switched_dense_output(model, stage.load, phases, rtol)
+            yield stage.begins, stage.ends, output
         return
-    equation, segments = WearEquation(model, (stretch.load,)), stretch.found.orbit.segments
-    begins = [stretch.begins + float(segment.begins[0]) for segment in segments]
+    equation, segments = WearEquation(model, (stage.load,)), stage.found.orbit.segments
+    begins = [stage.begins + float(segment.begins[0]) for segment in segments]
     observable = model.pressure if model.compliant else None
-    for begin, end, segment in zip(begins, [*begins[1:], stretch.ends], segments, strict=True):
+    for begin, end, segment in zip(begins, [*begins[1:], stage.ends], segments, strict=True):
         if np.any((cycles >= begin) & (cycles < end)):
             assert isinstance(segment.iterates, Iterates)
             yield begin, end, dense_output(equation, segment.iterates, phases, rtol, observable)
 
 
-class _Part(NamedTuple):
-    """A part of a stretch, from the cycle that it `begins` with, and what its cycles add up to
-    some `phases`."""
+class _DensePart(NamedTuple):
+    """A part of a stage, from the cycle `begins`, with the dense output at some `phases`."""
 
     model: Model
-    stretch: Stage
-    within: DenseOutput | SwitchedDenseOutput
+    stage: Stage
+    output: DenseOutput | SwitchedDenseOutput
     phases: FloatArray
     begins: float
 
     def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Inside]:
-        """Return the states in `cycles` (n,), so many cycles at once."""
+        """Yield the states in `cycles` (n,), for `at_once` cycles at a time."""
         # Where the wear rate rises or contact grazes, an error grows within the cycle.
         ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
-        wear, wrong = self.stretch.after(ends)
+        wear, wear_error = self.stage.after(ends)
         first, last = np.searchsorted(ends, cycles), np.searchsorted(ends, cycles + 1.0)
-        starts, wrong = wear[first], np.maximum(wrong[first], wrong[last])
+        starts, wear_error = wear[first], np.maximum(wear_error[first], wear_error[last])
         for at in range(0, len(cycles), at_once):
-            here = slice(at, at + at_once)
-            added = self.within.added(cycles[here] - self.begins, starts[here])
-            u = starts[here, None] + added.increment
-            absolute = wrong[here] + SAFETY * added.error
-            error = np.nan_to_num(absolute / (wear[last[here]] + TINY), nan=np.inf)
-            yield Inside(cycles[here], self.phases, u, self.fields(u, added, rtol), error)
+            rows = slice(at, at + at_once)
+            added = self.output.added(cycles[rows] - self.begins, starts[rows])
+            u = starts[rows, None] + added.increment
+            absolute = wear_error[rows] + SAFETY * added.error
+            error = np.nan_to_num(absolute / (wear[last[rows]] + TINY), nan=np.inf)
+            yield Inside(cycles[rows], self.phases, u, self.fields(u, added, rtol), error)
 
     def fields(self, u: FloatArray, added: PhaseIncrements, rtol: float) -> Fields:
-        """Return all fields; on a compliant support from the interpolated pressure, if right."""
-        load = self.stretch.load
+        """Return all fields; on a compliant support from the interpolated pressure, if that is
+        accurate enough."""
+        load = self.stage.load
         if added.observable is not None and np.max(added.observable_error) <= rtol:
             return self.model.fields_under(added.observable, u, load(self.phases))
         return fields_under_load(

@@ -1,8 +1,8 @@
-"""Life: the number of cycles to a wear depth, also beyond what can be counted one by one.
+"""Life: the number of cycles to a wear depth, also beyond the 1e12 cycles that are counted.
 
-Within 1e12 cycles the number is that of the engine. Beyond, wear that is steady in the end is
-extrapolated by its asymptote, Eqs. (21) and (22) with the logarithmic term; wear that is proved to
-end below the depth never reaches it.
+Within 1e12 cycles the number is that of the engine. Beyond, wear that becomes steady is
+extrapolated by its asymptote, Eqs. (21) and (22) with the logarithmic term; wear whose proved limit
+is below the depth never reaches it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from wear.states import notices_of_wear
 
 MOST_ITERATIONS = 50
 MOST_SHOWN = 5  # depths, where a life is shown in a line
-LARGEST_ERROR = 1e-3  # of an extrapolation that is worth a number
+LARGEST_ERROR = 1e-3  # of an extrapolation that is reported
 
 
 class Reached(Enum):
@@ -45,9 +45,8 @@ class Reached(Enum):
 
 
 class Life(NamedTuple):
-    """After how many whole `cycles` (n,) each `wear_mm` (n,) is reached, no number where that is
-    not known; the estimated relative `error` (n,) of the numbers; how each was found; and what is
-    worth knowing of them."""
+    """The whole numbers of `cycles` (n,) to each `wear_mm` (n,), NaN if unknown; their estimated
+    relative `error` (n,); the way in which each was found; and notices."""
 
     wear_mm: tuple[float, ...]
     cycles: FloatArray
@@ -56,19 +55,19 @@ class Life(NamedTuple):
     notices: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        told = [
+        texts = [
             f"{wear:.6g} mm after {cycles:.6g} cycles" if cycles == cycles
             else f"{wear:.6g} mm: {way.value}"
             for wear, cycles, way in zip(self.wear_mm, self.cycles, self.reached, strict=True)
         ]  # fmt: skip
-        rest = [f"{len(told) - MOST_SHOWN} more"] if len(told) > MOST_SHOWN else []
-        return f"<Life: {'; '.join(told[:MOST_SHOWN] + rest)}>"
+        rest = [f"{len(texts) - MOST_SHOWN} more"] if len(texts) > MOST_SHOWN else []
+        return f"<Life: {'; '.join(texts[:MOST_SHOWN] + rest)}>"
 
 
 def cycles_until(
     scene: Scene | str | os.PathLike[str], wear_mm: float | Iterable[float], rtol: float = 1e-10
 ) -> Life:
-    """Return after how many cycles the bearing has worn by each depth.
+    """Return the number of cycles to each depth of bearing wear.
 
     Parameters
     ----------
@@ -111,8 +110,8 @@ def cycles_until(
 def _beyond(
     scene: Scene, depths: FloatArray, rtol: float
 ) -> tuple[FloatArray, FloatArray, list[Reached]]:
-    """Return the cycles to depths (k,) that 1e12 cycles, or the load, do not bring about, their
-    relative error and how each was found."""
+    """Return the cycles to depths (k,) that are not reached within 1e12 cycles, or by the load,
+    their relative errors, and the way in which each was found."""
     cycles, error = np.full((2, len(depths)), np.nan)
     if isinstance(scene.load, Blocks):
         ends = most_cycles(scene.load) < MOST_CYCLES
@@ -133,12 +132,12 @@ def _beyond(
     return np.where(found, cycles, np.nan), np.where(found, error, np.nan), ways
 
 
-@np.errstate(all="ignore")  # a number of cycles may be none that a double has
+@np.errstate(all="ignore")  # a number of cycles may exceed the range of doubles
 def _extrapolated(
     scene: Scene, rate: float, far: Asymptote, depths: FloatArray, rtol: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the cycles to depths (k,) by the asymptote, and their relative error by its misfit in
-    the last decade that is counted."""
+    """Return the cycles to depths (k,) by the asymptote, and their relative errors by its misfit in
+    the last counted decade."""
     drift = far.log_coefficient_mm or 0.0
     counted = solve(scene, (MOST_CYCLES // 10, MOST_CYCLES), rtol)
     before, last = counted.u_c.tolist()

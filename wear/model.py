@@ -1,8 +1,8 @@
 """A scene's model: the generated variant that it needs, with its numbers bound.
 
-What a scene leaves out has no symbol, no state and no operation in the code that runs. The model
-gives solvers one interface to all variants: wear rate, its slope, the fields, and where contact
-ends at h = 3 sigma the margin of contact.
+Features that a scene leaves out have no symbol, no state and no operation in the code that runs.
+The model gives solvers one interface to all variants: wear rate, its slope, the fields, and where
+contact ends at h = 3 sigma the margin of contact.
 """
 
 from __future__ import annotations
@@ -20,35 +20,35 @@ from wear.faults import UsageError
 
 Real = Any  # a float or an array of floats
 Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa
-Summed = Callable[[Real], Real]
+Summation = Callable[[Real], Real]
 
 
-def as_it_is(values: Real) -> Real:
-    """Return the values."""
+def unchanged(values: Real) -> Real:
+    """Return the values unchanged."""
     return values
 
 
-class Bound(NamedTuple):
-    """The functions of a generated module with their numbers: the constants of a run, and the
-    physical parameters and the sign of pin wear that these come from."""
+class BoundModule(NamedTuple):
+    """A generated module with its numbers: the constants of a run, and the physical parameters and
+    the sign of pin wear from which they are computed."""
 
     module: ModuleType
     constants: Any
     data: Any
     signs: tuple[Real, ...]
 
-    def changed(self, change: Callable[[Real], Real]) -> Bound:
+    def changed(self, change: Callable[[Real], Real]) -> BoundModule:
         """Return the module with all its numbers changed, as rows of one array."""
         rows = iter(change(np.array([*self.constants, *self.data, *self.signs])))
         constants, data = (
             numbers._make(islice(rows, len(numbers))) for numbers in (self.constants, self.data)
         )
-        return Bound(self.module, constants, data, tuple(rows))
+        return BoundModule(self.module, constants, data, tuple(rows))
 
     def gradient(self, by_constants: Any) -> dict[str, Real]:
         """Return derivatives with respect to the parameters from those to the constants."""
-        found = self.module.parameter_gradient(by_constants, self.data, *self.signs)
-        return dict(found._asdict())
+        by_parameters = self.module.parameter_gradient(by_constants, self.data, *self.signs)
+        return dict(by_parameters._asdict())
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,8 @@ class Model:
     of shape (scenes, 1). `loss` is None where contact is never lost.
     """
 
-    bound: Bound
-    loss: Bound | None = None
+    bound: BoundModule
+    loss: BoundModule | None = None
 
     @property
     def module(self) -> Any:
@@ -75,12 +75,12 @@ class Model:
 
     @property
     def operations(self) -> Mapping[str, int]:
-        """Return how many arithmetic operations each generated function costs."""
+        """Return the number of arithmetic operations of each generated function."""
         return {**self.module.OPERATIONS, **(self.loss.module.OPERATIONS if self.loss else {})}
 
     @property
     def compliant(self) -> bool:
-        """Return whether the bearing stands on springs."""
+        """Return whether the support of the bearing is compliant."""
         return "compliance" in self.constants._fields
 
     @property
@@ -89,7 +89,7 @@ class Model:
         return self.loss is not None
 
     def select(self, index: Any) -> Model:
-        """Return the model of some of many scenes, chosen by an index of the scene axis."""
+        """Return the model of the scenes with this index along the scene axis."""
         return self._changed(lambda rows: rows[:, index])
 
     def reshaped(self, shape: tuple[int, ...]) -> Model:
@@ -102,9 +102,8 @@ class Model:
     def rate(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the wear rate du_c/dt in mm/s, Eq. (9) or (10).
 
-        With a rigid support the rate is that in contact; whether there is contact is the margin's
-        to say, since the rate jumps there. With a compliant support a rate `near` by, where it is
-        known, saves time.
+        With a rigid support the rate is that in contact; the margin decides on contact, since the
+        rate jumps there. With a compliant support a known `near` rate saves time.
         """
         if not self.compliant:
             return self.module.rate(u, U_a, self.constants)
@@ -123,7 +122,7 @@ class Model:
         limited = self._limited(p, margin) < p
         return np.where(limited, np.where(margin > 0.0, self._edge_slope(u), 0.0), by_law)
 
-    def rate_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
+    def rate_gradient(self, u: Real, U_a: Real, summed: Summation = unchanged) -> dict[str, Real]:
         """Return the derivatives of the wear rate by the contact law with respect to the load
         `U_a` and to every physical parameter, by symbol, as if contact were never lost.
 
@@ -139,13 +138,12 @@ class Model:
         return {"U_a": by_load, **self.bound.gradient(found)}
 
     def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
-        """Return the contact pressure in MPa on a compliant support, sought from a pressure `near`
-        by."""
+        """Return the contact pressure in MPa on a compliant support, sought from a `near` one."""
         p = self._law_pressure(u, U_a, near)
         return p if self.loss is None else self._limited(p, self.margin(u, U_a))
 
     def fields(self, u: Real, U_a: Real) -> Fields:
-        """Return the fields that the variant has, at given wear and load."""
+        """Return the fields of the variant at given wear and load."""
         if self.compliant:
             return self.fields_under(self.pressure(u, U_a), u, U_a)
         fields = self.module.fields(u, U_a, self.constants)
@@ -154,7 +152,7 @@ class Model:
         return fields._replace(p=np.where(self.margin(u, U_a) >= 0.0, fields.p, 0.0))
 
     def fields_under(self, p: Real, u: Real, U_a: Real) -> Fields:
-        """Return the fields on a compliant support, whose contact pressure `p` (MPa) is known."""
+        """Return the fields on a compliant support at a known contact pressure `p` (MPa)."""
         return self.module.fields(p, u, U_a, self.constants)
 
     def law_rate(self, u: Real, U_a: Real) -> Real:
@@ -178,7 +176,9 @@ class Model:
         p = self._limited(np.inf, 1.0) * self.margin(u, U_a)
         return self.module.rate(p, self.constants), self._edge_slope(u) + np.zeros_like(U_a)
 
-    def edge_rate_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
+    def edge_rate_gradient(
+        self, u: Real, U_a: Real, summed: Summation = unchanged
+    ) -> dict[str, Real]:
         """Return the derivatives of the wear rate while a compliant support keeps h at 3 sigma,
         with respect to the load and to every physical parameter, by symbol; those with respect to
         parameters `summed`."""
@@ -201,8 +201,7 @@ class Model:
         """Return the margin (mm) up to which a compliant support keeps h at 3 sigma; 0 with a rigid
         one.
 
-        There the pressure that does so is that of the contact law: all of the residual at no
-        pressure.
+        There the pressure that keeps it is that of the contact law: the residual at zero pressure.
         """
         if not self.compliant:
             return 0.0
@@ -217,7 +216,7 @@ class Model:
         """Return the derivative of the margin with respect to u_c; with respect to U_a it is 1."""
         return self._loss.module.margin_slope(u, self._loss.constants) + np.zeros_like(U_a)
 
-    def margin_gradient(self, u: Real, U_a: Real, summed: Summed = as_it_is) -> dict[str, Real]:
+    def margin_gradient(self, u: Real, U_a: Real, summed: Summation = unchanged) -> dict[str, Real]:
         """Return the derivatives of the margin with respect to `U_a` and to every physical
         parameter that it depends on, by symbol; those with respect to parameters `summed`."""
         found = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
@@ -225,12 +224,12 @@ class Model:
         return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(parts)}
 
     def margin_terms(self, u: Real, U_a: Real) -> Real:
-        """Return the sum of the absolute terms of the margin, in mm: its rounding error is at most
-        as many roundoffs."""
+        """Return the sum of the absolute terms of the margin, in mm: times the unit roundoff it
+        bounds the rounding error."""
         return self._loss.module.margin_terms(u, U_a, self._loss.constants)
 
     @property
-    def _loss(self) -> Bound:
+    def _loss(self) -> BoundModule:
         if self.loss is None:
             raise UsageError("this scene never loses contact: it has no margin")
         return self.loss
@@ -251,14 +250,13 @@ class Model:
 
 
 def stacked(models: Sequence[Model]) -> Model:
-    """Return one model of those of many scenes of one variant; its constants have shape
-    (scenes,)."""
+    """Return one model for those of scenes of one variant; its constants have shape (scenes,)."""
 
-    def joined(bounds: Sequence[Bound]) -> Bound:
+    def joined(bounds: Sequence[BoundModule]) -> BoundModule:
         first, parts = bounds[0], zip(*(bound[1:] for bound in bounds), strict=True)
         constants, data, signs = (map(np.array, zip(*part, strict=True)) for part in parts)
         numbers = first.constants._make(constants), first.data._make(data), tuple(signs)
-        return Bound(first.module, *numbers)
+        return BoundModule(first.module, *numbers)
 
     losses = [model.loss for model in models if model.loss is not None]
     return Model(joined([model.bound for model in models]), joined(losses) if losses else None)

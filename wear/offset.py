@@ -23,26 +23,26 @@ from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells
 from wear.scene import Scene
 
-FARTHEST = 1e12  # cycles that are counted at most
-FAR = 1e10  # times the roughness: wear that is counted at least
+FARTHEST = 1e12  # largest number of counted cycles
+FAR = 1e10  # roughnesses of wear up to which cycles are counted, within these
 RTOL = 1e-13
 RESOLVED = 1e-6  # relative error of B beyond which it is not known
 PER_DRIFT = 100.0  # times the error of A: the error of B, which is usually some ten times
 
 
 class Offset(NamedTuple):
-    """B in mm and an estimate of its absolute error; R and A as found along with it."""
+    """B in mm and its estimated absolute error, with the steady state that gives R and A too."""
 
     value: float
     error: float
-    found: SteadyState
+    steady_state: SteadyState
 
 
 def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     """Return B of a scene in mm from the derived `rate` R (mm per cycle) and `drift` A (mm); None
     if its wear does not become steady within 1e12 cycles.
 
-    Where contact may be lost, it has to last throughout the cycle in the end.
+    Where contact may be lost, contact in the steady state has to last throughout the cycle.
     """
     if rate * FARTHEST < scene.initial_roughness:
         return None

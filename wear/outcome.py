@@ -1,4 +1,4 @@
-"""What every method gives: the wear after the cycles that it reached."""
+"""The outcome of every method: the wear after the cycles that it reached."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from wear.orbit.problem import Cost
 
 
 class Outcome(NamedTuple):
-    """Wear `u` (mm) by a `method` after those `cycles` that were reached, in rising order, its
-    estimated relative `error`, NaN where there is none, and the cost.
+    """Wear `u` (mm) by a `method` after the `cycles` reached, in ascending order, its estimated
+    relative `error` (NaN if unknown) and the cost.
 
-    `stopped` says why cycles are missing (None: none are), and `interrupted` whether that was the
-    user or the clock.
+    `stopped` is the reason why cycles are missing (None if complete), `interrupted` whether that
+    was the user or the time limit.
     """
 
     method: str

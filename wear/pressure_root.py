@@ -1,16 +1,16 @@
 """The contact pressure on a compliant support: the root of p = p_max phi(at + give p).
 
-`at` is the closure over the roughness with an undeflected support, `give` the roughnesses that the
-support gives way per pressure. The left side rises with p and the right side falls, so that there
-is exactly one root.
+`at` is the closure over the roughness with an undeflected support, `give` the deflection of the
+support per pressure in roughnesses. The left side rises with p and the right side falls, so that
+there is exactly one root.
 
-It lies between two pressures that are known, `lower` and `upper`: that at which h/sigma is at the
-law's inflection, and that which the law has there. Between them the residual is concave (the law
-convex) or convex all over. So Newton's iteration converges from anywhere between: the first step
-ends on the side of the root from which tangents do not cross it, or is brought back to the nearer
-bound, which is on that side too; every further step goes towards the root and never beyond. A good
-start only saves iterations: the generated one solves the law's exponential tail by Lambert's
-function, so that four iterations do but where a soft support is pressed down to nearly p_max.
+It lies between two known pressures, `lower` and `upper`: the pressure at which h/sigma is at the
+law's inflection, and the law's value there. Between them the residual is concave (the law convex)
+or convex throughout. Therefore Newton's iteration converges from every start between them: the
+first step ends on the side of the root from which tangents do not cross it, or is brought back to
+the nearer bound, which is on that side too; every further step goes towards the root and never
+beyond. A good start only saves iterations: the generated one solves the law's exponential tail by
+Lambert's function; four iterations then suffice unless a soft support is pressed to nearly p_max.
 
 After a step the error is at most half its square times the curvature over the slope of the
 residual, that is at most
@@ -18,8 +18,8 @@ residual, that is at most
     give step^2/2 times the largest |phi''/phi'|
 
 as |phi'| grows towards the inflection. The iteration ends where give step^2 is a quarter of the
-roundoff of p. What is left is then below what rounding of h/sigma makes of p, which is a roundoff
-of h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
+roundoff of p. The remaining error is then below the rounding error of p, which is a roundoff of
+h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ import numpy as np
 
 from wear.faults import AccuracyError
 
-MOST_ITERATIONS = 200  # a factor e each where the start is bad: more than any double needs
+MOST_ITERATIONS = 200  # a factor e each from a bad start: more than the range of doubles needs
 CLOSE = float(np.finfo(float).eps) / 4.0
 
 Real = Any  # a float or an array of floats
 
 
 class Root(NamedTuple):
-    """The pressure in MPa, and how many iterations the slowest of its elements took."""
+    """The pressure in MPa, and the number of iterations of its slowest element."""
 
     p: Real
     iterations: int
@@ -47,10 +47,10 @@ def pressure(module: Any, u: Real, U_a: Real, c: Any, near: Real | None = None) 
     """Solve for the contact pressure at wear `u` and displacement `U_a` (mm), which broadcast, with
     a generated `module` for a compliant support and its constants `c`.
 
-    `near` is a pressure to start from in place of the general start; any number will do. The
+    `near` is a pressure to start from instead of the general start; any number is allowed. The
     relative accuracy is that of the law's value: a few units of roundoff, times the argument of
-    the law where that is large, however small the pressure. Among many states, one without a
-    pressure (trial states may hold no number, or a negative roughness) gets no number.
+    the law where that is large, however small the pressure. Among many states, those without a
+    pressure (trial states may be NaN, or have a negative roughness) give NaN.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def pressure(module: Any, u: Real, U_a: Real, c: Any, near: Real | None = None) 
         moves = some(give * step * step > CLOSE * p)
         count += 1
     lost = moves or some(p != p)
-    if lost and near is not None:  # so far off that the law had no value there
+    if lost and near is not None:  # a start so far off that the law had no value there
         return pressure(module, u, U_a, c)
     if lost and (scalar or moves):
         raise AccuracyError("the contact pressure on the compliant support could not be solved for")

@@ -1,4 +1,4 @@
-"""Processes beside this one: workers, and an assistant for what can be done meanwhile."""
+"""Other processes: workers, and an assistant for tasks that can be done meanwhile."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any
 
 Ask = Callable[..., Callable[[], Any]]
-"""Has a task done elsewhere, given as `submit` takes it; what it returns fetches the result."""
+"""Submits a task, with the arguments of `submit`; returns a function that fetches the result."""
 
 
 def cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     counted = os.process_cpu_count() if hasattr(os, "process_cpu_count") else os.cpu_count()
     return counted or 1
 
@@ -41,12 +41,12 @@ class _Context(SpawnContext):
 
 @contextmanager
 def workers(number: int) -> Iterator[ProcessPoolExecutor]:
-    """Give so many processes; an exception, Ctrl-C say, ends what they are doing."""
+    """Provide a number of processes; an exception, such as Ctrl-C, ends their work."""
     pool = ProcessPoolExecutor(number, mp_context=_Context(), initializer=_ignore_interrupts)
     try:
         yield pool
         pool.shutdown()
-    except BaseException:  # what is half done is not waited for
+    except BaseException:  # unfinished tasks are not waited for
         pool.shutdown(wait=False, cancel_futures=True)
         for process in multiprocessing.active_children():
             process.terminate()
@@ -55,8 +55,8 @@ def workers(number: int) -> Iterator[ProcessPoolExecutor]:
 
 @contextmanager
 def assistant() -> Iterator[Ask]:
-    """Give a way to have tasks done one after another on a second core, if there is one; a task
-    that is fetched before it was begun is done here."""
+    """Provide a function that submits tasks to a second core, if there is one, where they run one
+    after another; a task that is fetched before it has begun runs here."""
 
     def alone(task, *given, **named):  # type: ignore[no-untyped-def]
         return lambda: task(*given, **named)
@@ -67,8 +67,8 @@ def assistant() -> Iterator[Ask]:
     with workers(1) as pool:
 
         def ask(task, *given, **named):  # type: ignore[no-untyped-def]
-            begun = pool.submit(task, *given, **named)
-            return lambda: task(*given, **named) if begun.cancel() else begun.result()
+            future = pool.submit(task, *given, **named)
+            return lambda: task(*given, **named) if future.cancel() else future.result()
 
         yield ask
 

@@ -1,7 +1,7 @@
 """The quantities of scenes and results by their names in files, which end in the unit.
 
 Key results
-    COLUMNS     what a result has along its cycles
+    COLUMNS     the columns of a result along its cycles
     SMALLEST, LARGEST, MOST_CYCLES     bounds of all numbers
     in_short    a number with few digits
     unit_of     the unit of a name
@@ -29,7 +29,7 @@ def _ending(name: str) -> str:
 
 
 def in_short(number: float, digits: int = 4) -> str:
-    """Return a number with so many digits, the exponent as people write it.
+    """Return a number with some digits and a short exponent.
 
     >>> in_short(9000.0), in_short(1e6), in_short(1.25e-7)
     ('9000', '1e6', '1.25e-7')
@@ -69,8 +69,8 @@ def label_of(key: str) -> str:
 
 
 class Column(NamedTuple):
-    """What a column of a result holds; the `symbol` by which a `History` has it, or the fields of a
-    model; and that symbol in LaTeX, if a printed table has room for the column."""
+    """The meaning of a column of a result; its `symbol` in a `History` or in the fields of a model;
+    and that symbol in LaTeX, if a printed table has room for the column."""
 
     meaning: str
     symbol: str = ""
@@ -102,7 +102,7 @@ COLUMNS: Mapping[str, Column] = {
 
 
 def columns_of(found: object) -> dict[str, Any]:
-    """Return the columns that something has under their symbols, by name."""
+    """Return by name the columns whose symbols are attributes of an object."""
     values = {
         name: getattr(found, each.symbol, None) for name, each in COLUMNS.items() if each.symbol
     }

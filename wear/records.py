@@ -1,7 +1,7 @@
 """The wear along a measured history: straight lines between its rows, many at once.
 
-A record does not repeat: there is nothing to count. But on a line the rate is smooth, so that few
-Gauss nodes do, and a thousand lines are one mesh for `wear.numerics.initial_value`.
+A record is not periodic: its cycles cannot be counted. But on a line the rate is smooth, so that
+few Gauss nodes suffice, and a thousand lines are one mesh for `wear.numerics.initial_value`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 
 METHOD = "collocation"
-NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its judge
+NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its error estimate
 NEARLY = 0.9  # of the wear at which the roughness vanishes
 STRICTER = 0.01  # tolerance on lines, over the requested accuracy
 
@@ -78,7 +78,7 @@ def follow(
 
 
 def _why(wear: float, limit: float) -> str:
-    """Return why the lines cannot be followed any further than to a `wear` (mm)."""
+    """Return the reason why the wear could not be followed beyond a `wear` (mm)."""
     if wear > NEARLY * limit:
         return f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
     return f"the wear could not be followed beyond u_c = {wear:.6g} mm"

@@ -1,4 +1,4 @@
-"""Sensitivities: how the wear after N cycles depends on every number of the scene.
+"""Sensitivities: derivatives of the wear after N cycles with respect to every number of the scene.
 
 Overview
     The engine gives du/dp along the orbit (`wear.orbit.tangent`), with the derivatives of the wear
@@ -47,7 +47,7 @@ GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
 class Gradients(NamedTuple):
     """Of scenes (s,) after cycles (n,): `wear` (s, n) in mm, its `derivative` (s, k, n) with
     respect to k numbers of the scene, in mm per unit of the key, and the estimated absolute `error`
-    (s, k, n) of that; infinite where the count does not reach."""
+    (s, k, n) of that; infinite where the wear could not be computed."""
 
     wear: FloatArray
     derivative: FloatArray
@@ -189,7 +189,7 @@ def _grazes(equation: WearEquation, edge: Edge) -> bool:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Sensitivities:
-    """How the wear of a scene after `cycles` (n,) depends on its numbers.
+    """The sensitivities of the wear of a scene after `cycles` (n,) to its numbers.
 
     The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
     (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
@@ -210,8 +210,8 @@ class Sensitivities:
 
     @property
     def elasticity(self) -> FloatArray:
-        """Return the relative change of the wear per relative change of each number, (k, n); no
-        number where that is zero, or the wear."""
+        """Return the relative change of the wear per relative change of each number, (k, n); NaN
+        where the number or the wear is zero."""
         return self._relative(self.derivative)
 
     @property
@@ -268,7 +268,7 @@ def sensitivity(
     rtol: float = 1e-10,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Sensitivities:
-    """Return how the wear of a scene after numbers of cycles depends on every number of the scene.
+    """Return the sensitivities of the wear after numbers of cycles to every number of the scene.
 
     Parameters
     ----------
@@ -279,12 +279,12 @@ def sensitivity(
     rtol
         Requested relative accuracy of the wear; the derivatives have an estimate of their own.
     progress
-        Is told in words how far the count is that takes more than two seconds.
+        Called with a message on the progress of a count that takes more than two seconds.
 
     Raises
     ------
     UsageError
-        if the request makes no sense, or the load does not repeat.
+        if the request is invalid, or the load is not periodic.
 
     >>> found = sensitivity("section4", [9000, 1e12])
     >>> growth = found.keys.index("bearing.roughness_growth")

@@ -1,4 +1,4 @@
-"""What is wrong with what a user gave, in words: the problem, and the remedy."""
+"""Words of messages to users: names, kinds of values, and corrections of misspelt words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from datetime import date, time
 
 
 def shown(text: str, most: int = 60) -> str:
-    """Return `text` fit for a terminal: one line, no control characters, at most so long.
+    """Return `text` for a terminal: one line, no control characters, at most `most` characters.
 
     >>> shown("a\\x1b[31mb")
     'a\\\\x1b[31mb'
@@ -19,7 +19,7 @@ def shown(text: str, most: int = 60) -> str:
 
 
 def is_path(given: object) -> bool:
-    """Return whether something can be the name of a file."""
+    """Return whether an object can be the name of a file."""
     return isinstance(given, str | os.PathLike)
 
 
@@ -33,7 +33,7 @@ def are_texts(given: object) -> bool:
 
 
 def did_you_mean(word: str, candidates: Iterable[str]) -> str:
-    """Return the candidate that `word` seems to stand for, or ''.
+    """Return the candidate that is similar to `word`, or ''.
 
     >>> did_you_mean("stifness", ["stiffness", "hardness"])
     'stiffness'
@@ -44,7 +44,7 @@ def did_you_mean(word: str, candidates: Iterable[str]) -> str:
 
 
 def kind_of(raw: object) -> str:
-    """Return what a value is, in words for the user."""
+    """Return the kind of a value in words for the user."""
     kinds: dict[type | tuple[type, ...], str] = {
         bool: "true or false", (int, float): "a number", str: "text",
         (list, tuple): "a list", Mapping: "a table", type(None): "nothing",

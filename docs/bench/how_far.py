@@ -16,7 +16,7 @@ import numpy as np
 from jumps import Cycles, cycles_of, extrapolated
 
 from wear.benchmark.methods import Case, cases
-from wear.benchmark.results import Table, markdown_table
+from wear.benchmark.results import TextTable, markdown_table
 from wear.quantities import in_short
 
 HERE = Path(__file__).resolve().parent
@@ -86,10 +86,10 @@ def measured() -> Iterator[Row]:
             yield adaptive(cycles, case, share)
 
 
-def table(rows: list[Row]) -> Table:
+def table(rows: list[Row]) -> TextTable:
     """Return the rows as a table."""
     header = ("cycles", "jump", "integrated", "error", "by the rule")
-    return Table(
+    return TextTable(
         "How far",
         header,
         tuple(

@@ -33,8 +33,8 @@ def test_the_constants_of_the_asymptote(scene: Scene, key: str) -> None:
     rate, drift, _ = _derived(scene)
     found = offset(scene, rate, drift)
     assert found is not None
-    assert found.found.rate == pytest.approx(float(known["R"]), rel=1e-14)
-    assert found.found.drift == pytest.approx(float(known["A"]), rel=1e-11)
+    assert found.steady_state.rate == pytest.approx(float(known["R"]), rel=1e-14)
+    assert found.steady_state.drift == pytest.approx(float(known["A"]), rel=1e-11)
     true = float(known["B"].split()[0])
     assert found.value == pytest.approx(true, rel=3e-11)
     assert abs(found.value - true) <= found.error
@@ -68,8 +68,8 @@ def test_the_steady_state_found_is_the_derived_one_and_wear_tends_to_it(scene: S
     rate, drift, said = _derived(scene)
     found = offset(scene, rate, drift)
     assert found is not None
-    assert found.found.rate == pytest.approx(rate, rel=1e-13)
-    assert found.found.drift == pytest.approx(drift, rel=1e-9)
+    assert found.steady_state.rate == pytest.approx(rate, rel=1e-13)
+    assert found.steady_state.drift == pytest.approx(drift, rel=1e-9)
     assert said.offset_mm == found.value
     assert found.error <= 1e-8 * abs(found.value)
     cycles = np.array([1e5, 1e6, 1e7])

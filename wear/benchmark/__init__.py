@@ -1,9 +1,9 @@
 """Speed against true error: methods on cases of known wear, interleaved, medians.
 
-Every method first solves every case once, from few cycles to many, as long as a run is expected to
-end within the cap; then rounds over all short runs follow until the time is used up. Start-up
-(import, binding, compilation) is measured apart. Nothing is left out: wrong answers and runs that
-were too long are results.
+Every method first solves every case once, from few cycles to many, while the expected time of a run
+is below the cap; then rounds over all short runs follow until the time is used up. Start-up
+(import, binding, compilation) is measured separately. Nothing is left out: wrong answers and runs
+that were too long are results.
 """
 
 from __future__ import annotations
@@ -18,15 +18,17 @@ from typing import NamedTuple
 
 from wear.benchmark.methods import Answer, Case, Method, Run, UnsuitableError
 
-ROUNDING = 4e-15  # a smaller error is none
-WRONG = 1e-2  # a relative error that no reader of a figure would forgive
+ROUNDING = 4e-15  # errors below count as zero
+WRONG = 1e-2  # relative error from which an answer is wrong
 NO_ANSWER = Answer(math.nan)
-LEAST_GROWTH = 0.5  # of time with cycles, in powers, that a next run is feared to have
+LEAST_GROWTH = (
+    0.5  # least power of the cycles with which the time of a next run is expected to grow
+)
 
 
 class Effort(NamedTuple):
-    """How long to measure, in seconds of processor time: a run may be expected to take `cap`, one
-    of up to `repeated` is repeated in at most so many `rounds`, which together take `rest`."""
+    """The effort of a measurement, in seconds of processor time: the largest expected time of a run
+    is `cap`; runs of up to `repeated` are repeated in at most `rounds`, in a time of `rest`."""
 
     cap: float
     repeated: float
@@ -52,10 +54,10 @@ class Status(StrEnum):
 
 
 class Measurement(NamedTuple):
-    """A method on a case at a tolerance; what has a default is that of a case that was not run.
+    """A method on a case at a tolerance; the defaults are those of a case that was not run.
 
-    `seconds` is the median of `repeats` runs (an expectation if skipped), `error` the true signed
-    relative error, `estimate` the method's own; NaN or None where there is none.
+    `seconds` is the median of `repeats` runs (the expected time if skipped), `error` the true
+    signed relative error, `estimate` the method's own; NaN or None where there is none.
     """
 
     method: str
@@ -72,13 +74,13 @@ class Measurement(NamedTuple):
 
     @property
     def honest(self) -> bool:
-        """Whether the method's own estimate, if it has one, covers its true error."""
-        silent = self.estimate is None or not math.isfinite(self.error)
-        return silent or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
+        """Return whether the method's own estimate, if it has one, bounds its true error."""
+        unknown = self.estimate is None or not math.isfinite(self.error)
+        return unknown or abs(self.error) <= max(self.estimate or 0.0, ROUNDING)
 
 
 class StartUp(NamedTuple):
-    """Seconds that a method takes once a scene to get ready: bind, compile, run one cycle."""
+    """Seconds that a method takes once for each scene: bind, compile, run one cycle."""
 
     method: str
     scene: str
@@ -86,8 +88,8 @@ class StartUp(NamedTuple):
 
 
 @dataclass
-class Job:
-    """A run to be repeated, and what it has given so far."""
+class TimedRun:
+    """A run to be repeated, its answer, and the seconds of its repetitions so far."""
 
     method: Method
     case: Case
@@ -97,13 +99,13 @@ class Job:
     seconds: list[float] = field(default_factory=list)
 
     def once(self) -> None:
-        """Run and look at the processor's clock: other programs take none of this time."""
+        """Run once and record the processor time, which excludes other programs."""
         start = time.process_time()
         self.answer = self.run(self.case.cycles, self.tolerance)
         self.seconds.append(time.process_time() - start)
 
     def measured(self) -> Measurement:
-        """Return what came of it; of several runs the first one, which warms up, does not count."""
+        """Return the measurement; of several runs the first one, a warm-up, does not count."""
         counted = self.seconds[1:] or self.seconds
         return measurement(self.method.name, self.case, self.tolerance, counted, self.answer)
 
@@ -111,7 +113,7 @@ class Job:
 def measurement(
     method: str, case: Case, tolerance: float, seconds: Sequence[float], answer: Answer
 ) -> Measurement:
-    """Return what came of runs that took so many seconds, their median."""
+    """Return the measurement of runs with these `seconds`, of which it has the median."""
     error = answer.wear / case.wear - 1.0
     return Measurement(
         method, case.name, case.cycles, tolerance, statistics.median(seconds), len(seconds), error,
@@ -119,7 +121,7 @@ def measurement(
     )  # fmt: skip
 
 
-Outcome = Job | Measurement | StartUp
+StepResult = TimedRun | Measurement | StartUp
 
 
 def judge(error: float, tolerance: float, answer: Answer = NO_ANSWER) -> tuple[Status, str]:
@@ -145,23 +147,23 @@ def benchmark(
     effort: Effort = DEFAULT,
     progress: Callable[[str], None] = lambda _: None,
 ) -> tuple[tuple[Measurement, ...], tuple[StartUp, ...]]:
-    """Measure `methods` on `cases`, and apart from that how long each takes to start.
+    """Measure `methods` on `cases`, and separately the start-up of each method.
 
     `progress` is called with a line at each step.
     """
-    outcomes: list[Outcome] = []
+    outcomes: list[StepResult] = []
     for method in methods:
         progress(f"{method.name}: first runs")
         outcomes += _begin(method, cases, effort.cap)
-    jobs = [outcome for outcome in outcomes if isinstance(outcome, Job)]
+    jobs = [outcome for outcome in outcomes if isinstance(outcome, TimedRun)]
     _repeat([job for job in jobs if job.seconds[0] <= effort.repeated], effort, progress)
     not_run = [outcome for outcome in outcomes if isinstance(outcome, Measurement)]
     starts = tuple(outcome for outcome in outcomes if isinstance(outcome, StartUp))
     return (*(job.measured() for job in jobs), *not_run), starts
 
 
-def _repeat(jobs: Sequence[Job], effort: Effort, progress: Callable[[str], None]) -> None:
-    """Round after round over all jobs, so that a busy machine disturbs all methods alike."""
+def _repeat(jobs: Sequence[TimedRun], effort: Effort, progress: Callable[[str], None]) -> None:
+    """Run all jobs in rounds, so that a busy machine disturbs all methods alike."""
     begin = time.process_time()
     for repeat in range(effort.rounds):
         progress(f"round {repeat + 1} of {effort.rounds}")
@@ -171,42 +173,42 @@ def _repeat(jobs: Sequence[Job], effort: Effort, progress: Callable[[str], None]
             job.once()
 
 
-def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[Outcome]:
-    """Get ready for each scene and solve its cases once."""
+def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[StepResult]:
+    """Prepare a method for each scene and solve its cases once."""
     for name in dict.fromkeys(case.name for case in cases):
         of_scene = sorted((c for c in cases if c.name == name), key=lambda case: case.cycles)
         start = time.process_time()
         try:
             run = method.prepare(of_scene[0].scene)
-            run(1, method.tolerances[0])  # what is imported or compiled when first needed
+            run(1, method.tolerances[0])  # with imports and compilation at the first use
             yield StartUp(method.name, name, time.process_time() - start)
             for tolerance in method.tolerances:
                 yield from _first_runs(method, run, of_scene, tolerance, cap)
         except UnsuitableError as fault:
             for case in of_scene:
-                found = Measurement(method.name, name, case.cycles, math.nan, remark=str(fault))
-                yield found._replace(status=Status.UNSUITABLE)
+                skipped = Measurement(method.name, name, case.cycles, math.nan, remark=str(fault))
+                yield skipped._replace(status=Status.UNSUITABLE)
 
 
 def _first_runs(
     method: Method, run: Run, cases: Sequence[Case], tolerance: float, cap: float
-) -> Iterator[Job | Measurement]:
-    """Solve from few cycles to many, until a run is expected to outlast the cap."""
-    before: list[Job] = []
+) -> Iterator[TimedRun | Measurement]:
+    """Solve from few cycles to many, until the expected time of a run exceeds the cap."""
+    before: list[TimedRun] = []
     for case in cases:
         expected = _expected(before, case.cycles) if method.steps else 0.0
         if expected > cap:
-            found = Measurement(method.name, case.name, case.cycles, tolerance, expected)
-            yield found._replace(remark=f"would take some {expected:.2g} s")
+            skipped = Measurement(method.name, case.name, case.cycles, tolerance, expected)
+            yield skipped._replace(remark=f"would take some {expected:.2g} s")
             continue
-        job = Job(method, case, tolerance, run)
+        job = TimedRun(method, case, tolerance, run)
         job.once()
         before.append(job)
         yield job
 
 
-def _expected(before: Sequence[Job], cycles: int) -> float:
-    """Seconds, from how the time grew between the last two runs."""
+def _expected(before: Sequence[TimedRun], cycles: int) -> float:
+    """Return the expected seconds, from the growth of the time between the last two runs."""
     if not before:
         return 0.0
     last = before[-1]

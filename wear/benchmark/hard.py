@@ -1,7 +1,7 @@
-"""The hard catalogue: every method on scenes made to break it, with its true error.
+"""The hard catalogue: every method on scenes that are difficult for it, with its true error.
 
-Built-in scenes beyond the note's own, each at a few numbers of cycles of known wear. A method fails
-here by being wrong, by being slow, or by having to say that it cannot; only the first is a fault.
+Built-in scenes beyond the note's own, each at a few numbers of cycles with known wear. A method
+fails here if it is wrong, slow, or reports that it cannot solve; only the first is a fault.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from wear.benchmark.methods import (
     solver,
     with_defaults,
 )
-from wear.benchmark.results import Table, grouped, magnitude, markdown_table
+from wear.benchmark.results import TextTable, grouped, magnitude, markdown_table
 from wear.quantities import in_short
 
 LEGEND = (
@@ -33,18 +33,18 @@ LEGEND = (
     "was beyond its tolerance and did not report it (wrong: by more than a percent); estimate: its "
     "own error estimate was smaller than the error."
 )
-EVERY_CYCLE = 100  # up to which the methods that go through every cycle are tried
+EVERY_CYCLE = 100  # cycles up to which the methods that integrate every cycle are tried
 STEPPED_TOLERANCE = 1e-6
 COUNTED_TOLERANCE = 1e-10
 
 
 def catalogue() -> tuple[Case, ...]:
-    """All hard cases."""
+    """Return all hard cases."""
     return cases("hard", names("hard"))
 
 
 def methods_of(case: Case) -> Iterator[tuple[str, float]]:
-    """The methods to try on a case, each with its tolerance."""
+    """Yield the methods to try on a case, each with its tolerance."""
     yield "auto", COUNTED_TOLERANCE
     if case.cycles <= EVERY_CYCLE:
         yield from ((name, STEPPED_TOLERANCE) for name in SCIPY)
@@ -54,10 +54,10 @@ def methods_of(case: Case) -> Iterator[tuple[str, float]]:
 def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Measurement:
     """Run one method on one case, once."""
     plain = method.removeprefix("solve_ivp ")
-    made = with_defaults if plain != method else partial(solver, time_limit=time_limit)
+    prepare = with_defaults if plain != method else partial(solver, time_limit=time_limit)
     start = time.process_time()
     try:
-        answer = made(case.scene, plain)(case.cycles, tolerance)
+        answer = prepare(case.scene, plain)(case.cycles, tolerance)
     except (UnsuitableError, ArithmeticError, ValueError) as fault:
         answer = Answer(math.nan, complaint=str(fault))
     return measurement(method, case, tolerance, [time.process_time() - start], answer)
@@ -73,37 +73,38 @@ def hard_cases(
     Parameters
     ----------
     chosen
-        By rising numbers of cycles of each scene: a method too slow for some is not tried on more.
+        In ascending numbers of cycles of each scene: a method too slow for some is not tried on
+        more.
     time_limit
-        Seconds after which a run of a method that can be stopped is.
+        Seconds after which a run is stopped, if the method allows it.
     """
-    found: list[Measurement] = []
+    entries: list[Measurement] = []
     for case in chosen:
         progress(f"{case.name}, {case.cycles} cycles")
         for method, tolerance in methods_of(case):
-            fewer = [e for e in found if (e.scene, e.method) == (case.name, method)]
+            fewer = [e for e in entries if (e.scene, e.method) == (case.name, method)]
             if all(entry.seconds <= time_limit for entry in fewer):
-                found.append(attempt(case, method, tolerance, time_limit))
-    return tuple(found)
+                entries.append(attempt(case, method, tolerance, time_limit))
+    return tuple(entries)
 
 
 def worst(entries: Sequence[Measurement]) -> Measurement:
-    """Return the case that shows a method on a scene from its worst side."""
+    """Return the worst case of a method on a scene."""
     order = (Status.WRONG, Status.REPORTED, Status.MISSED, Status.STOPPED, Status.MET)
     return min(
         entries, key=lambda entry: (entry.honest, order.index(entry.status), -abs(entry.error))
     )
 
 
-def overview(found: Sequence[Measurement]) -> Table:
-    """Scenes against methods."""
+def overview(found: Sequence[Measurement]) -> TextTable:
+    """Return the table of scenes against methods."""
     methods = grouped(found, "method")
     rows = []
     for scene, entries in grouped(found, "scene").items():
         tried = {method: worst(some) for method, some in grouped(entries, "method").items()}
         rows.append((scene, *(_cell(tried.get(method)) for method in methods)))
     heads = (f"{name}\n{entries[-1].tolerance:g}" for name, entries in methods.items())
-    return Table("Hard cases", ("scene", *heads), tuple(rows))
+    return TextTable("Hard cases", ("scene", *heads), tuple(rows))
 
 
 def _cell(entry: Measurement | None) -> str:
@@ -117,15 +118,15 @@ def _cell(entry: Measurement | None) -> str:
     return size if entry.status is Status.MET else f"{size} {entry.status}"
 
 
-def failures(found: Sequence[Measurement]) -> Table:
-    """How methods failed: once a scene and method, at its worst."""
+def failures(found: Sequence[Measurement]) -> TextTable:
+    """Return the table of failures: for each scene and method the worst."""
     rows = []
     for scene, entries in grouped(found, "scene").items():
         for method, some in grouped(entries, "method").items():
             entry = worst(some)
             if entry.status is not Status.MET or not entry.honest:
                 rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
-    return Table("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
+    return TextTable("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
 
 
 def _how(entry: Measurement) -> str:
@@ -135,7 +136,7 @@ def _how(entry: Measurement) -> str:
 
 
 def markdown(found: Sequence[Measurement], footer: str) -> str:
-    """The part of the hard-case page that is computed."""
+    """Return the computed part of the page on hard cases."""
     table = overview(found)
     flat = table._replace(header=tuple(head.replace("\n", " ") for head in table.header))
     parts = [LEGEND, markdown_table(flat), "**How they fail**", markdown_table(failures(found))]

@@ -1,4 +1,4 @@
-"""On what a benchmark ran: versions, processor, load; and how long imports take."""
+"""The machine of a benchmark: versions, processor, load; and the time of imports."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CPU = Path("/proc/cpuinfo")
 
 
 def machine(peers: bool = False) -> dict[str, Any]:
-    """Versions, processor, cores, and the load average before the measurement."""
+    """Return versions, processor, cores, and the load average before the measurement."""
     names = (*DISTRIBUTIONS, *(PEER_DISTRIBUTIONS if peers else ()))
     return {
         "python": platform.python_version(),
@@ -33,7 +33,7 @@ def machine(peers: bool = False) -> dict[str, Any]:
 
 
 def footer(facts: Mapping[str, Any]) -> str:
-    """The same in a line."""
+    """Return these facts in a line."""
     versions = ", ".join(f"{name} {number}" for name, number in facts["versions"].items())
     text = f"{facts['processor']}, {facts['cores']} cores; Python {facts['python']}, {versions}"
     busy = facts["load_average"]
@@ -43,12 +43,12 @@ def footer(facts: Mapping[str, Any]) -> str:
 
 
 def installed(packages: Iterable[str]) -> dict[str, str]:
-    """Return the versions of these packages; those not installed are left out."""
-    found = {}
+    """Return the versions of those of these packages that are installed."""
+    versions = {}
     for package in packages:
         with suppress(PackageNotFoundError):
-            found[package] = version(package)
-    return found
+            versions[package] = version(package)
+    return versions
 
 
 def _processor() -> str:
@@ -60,13 +60,13 @@ def _processor() -> str:
 
 
 def missing(method: Method) -> tuple[str, ...]:
-    """The packages that a method needs and that are not installed."""
+    """Return the packages that a method needs and that are not installed."""
     packages = dict.fromkeys(module.partition(".")[0] for module in method.imports)
     return tuple(package for package in packages if find_spec(package) is None)
 
 
 def import_seconds(modules: Sequence[str]) -> float:
-    """Time to import these in a fresh process, the start of Python not counted."""
+    """Return the time to import modules in a new process, without the start of Python."""
     lines = ["from time import perf_counter", "start = perf_counter()"]
     lines += [f"import {module}" for module in modules]
     code = "\n".join([*lines, "print(perf_counter() - start)"])

@@ -1,9 +1,9 @@
 """The cases and methods of the benchmark.
 
-A case is a scene with the wear that is known of it, far beyond double precision's need;
-`wear/data/reference.json` says how the values were computed: no code of the package took part. A
-run of an own method is all that a user waits for: binding the model, solving, checking the error
-estimate and computing the fields.
+A case is a scene with its known wear, far more accurate than double precision;
+`wear/data/reference.json` describes the computation of the values, without any code of the package.
+A run of the package's own method contains all that a user waits for: binding the model, solving,
+checking the error estimate and computing the fields.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ REFERENCE = Path(__file__).parents[1] / "data" / "reference.json"
 CYCLES = (1, 100, 9000, 10**6, 10**8)
 ONE = ("section4",)
 FEW = ("section3", "section4", "fast-wear")
-LONGEST_RUN = 30.0  # s, of one that can be stopped
+LONGEST_RUN = 30.0  # s, if the method can be stopped
 SCIPY = ("DOP853", "Radau", "BDF", "LSODA", "RK45")
 WITH_DEFAULTS = ("RK45", "LSODA")
 DEFAULT_TOLERANCE = 1e-3  # `solve_ivp`'s rtol
@@ -47,34 +47,34 @@ def _reference() -> Any:
 
 
 def names(kind: Literal["speed", "hard"]) -> tuple[str, ...]:
-    """The scenes of the speed comparison or of the hard catalogue."""
+    """Return the names of the scenes of the speed comparison or of the hard catalogue."""
     return tuple(_reference()[kind])
 
 
 def cases(
     kind: Literal["speed", "hard"], scenes: Sequence[str], cycles: Sequence[int] | None = None
 ) -> tuple[Case, ...]:
-    """The cases of some scenes, at those numbers of cycles whose wear is known.
+    """Return the cases of some scenes, at the numbers of cycles with known wear.
 
     >>> [case.cycles for case in cases("speed", ["section4"], CYCLES)]
     [1, 100, 9000, 1000000, 100000000]
     """
-    made = []
+    known = []
     for name in scenes:
         entry = _reference()[kind][name]
         scene = load_scene(entry["scene"], entry["set"])
         for text, wear in entry["u_c_mm"].items():
             if cycles is None or int(text) in cycles:
-                made.append(Case(name, scene, int(text), wear))
-    return tuple(made)
+                known.append(Case(name, scene, int(text), wear))
+    return tuple(known)
 
 
 class Answer(NamedTuple):
     """Wear in mm after the last cycle.
 
     `estimate` is the method's own estimate of the relative error and `evaluations` the number of
-    right-hand sides, None where it tells none; `complaint` is empty if it says that all went well;
-    `stopped` if it was cut short by its time limit.
+    right-hand sides, None if it reports none; `complaint` is empty if it reports success; `stopped`
+    if its time limit passed.
     """
 
     wear: float
@@ -85,16 +85,16 @@ class Answer(NamedTuple):
 
 
 Run = Callable[[int, float], Answer]
-"""Solve from the fresh state for the wear after so many cycles, to a relative tolerance."""
+"""Solves for the wear after a number of cycles from the initial state, to a relative tolerance."""
 
 
 class Method(NamedTuple):
     """A way to solve a scene.
 
     `imports` are the modules whose import is part of its start-up, all of which have to be
-    installed. `prepare` does what is done once a scene (bind, compile) and raises `UnsuitableError`
-    for a scene that the method cannot solve. `tolerances` are those worth trying. `steps`: it goes
-    through every cycle, so that time is expected to grow with their number.
+    installed. `prepare` does the work once for each scene (bind, compile) and raises
+    `UnsuitableError` for a scene that the method cannot solve. `tolerances` are those to try.
+    `steps`: it integrates every cycle, so that time is expected to grow with their number.
     """
 
     name: str
@@ -105,11 +105,11 @@ class Method(NamedTuple):
 
 
 class UnsuitableError(Exception):
-    """The method cannot solve the scene; the message says why."""
+    """The method cannot solve the scene, for the reason in the message."""
 
 
 def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
-    """`wear.solve` by one of its methods."""
+    """Return `wear.solve` with one of its methods as a run."""
 
     def run(cycles: int, tolerance: float) -> Answer:
         complaint, stopped, start = "", False, time.monotonic()
@@ -136,8 +136,8 @@ def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
 
 
 def with_defaults(scene: Scene, method: str) -> Run:
-    """What a user would write first: `solve_ivp` on the raw equation, in mm and s, with its default
-    tolerances, which the run ignores.
+    """Return the first attempt of a user as a run: `solve_ivp` on the raw equation, in mm and s,
+    with its default tolerances, whatever is requested.
 
     The answer is wrong by tens of percent without a warning: the absolute tolerance, 1e-6 mm, is a
     tenth of the wear of the first cycles, and steps jump over contact pulses.
@@ -154,8 +154,8 @@ def with_defaults(scene: Scene, method: str) -> Run:
 
     def run(cycles: int, _: float) -> Answer:
         end = cycles * periodic.period
-        found = solve_ivp(right_hand_side, (0.0, end), [0.0], method=method)
-        return Answer(float(found.y[0, -1]), evaluations=int(found.nfev))
+        solution = solve_ivp(right_hand_side, (0.0, end), [0.0], method=method)
+        return Answer(float(solution.y[0, -1]), evaluations=int(solution.nfev))
 
     return run
 

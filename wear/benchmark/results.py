@@ -39,10 +39,10 @@ def best(runs: Sequence[Measurement], digits: int) -> tuple[Measurement, ...]:
     """Return each method's fastest run with a true relative error of at most 10^-digits, fastest
     first; `runs` are those of one scene and number of cycles."""
     good = [run for run in runs if abs(run.error) <= 10.0**-digits and run.repeats]
-    found: dict[str, Measurement] = {}
+    fastest: dict[str, Measurement] = {}
     for run in sorted(good, key=lambda run: run.seconds):
-        found.setdefault(run.method, run)
-    return tuple(found.values())
+        fastest.setdefault(run.method, run)
+    return tuple(fastest.values())
 
 
 def _of(runs: Sequence[Measurement], scene: str) -> list[Measurement]:
@@ -50,15 +50,15 @@ def _of(runs: Sequence[Measurement], scene: str) -> list[Measurement]:
 
 
 def grouped(rows: Iterable[Row], by: str) -> dict[Any, list[Row]]:
-    """Return rows by the value of a field, in order of appearance; by rising numbers of cycles."""
-    found: dict[Any, list[Row]] = {}
+    """Return rows by the value of a field in order of appearance, numbers of cycles ascending."""
+    groups: dict[Any, list[Row]] = {}
     for row in rows:
-        found.setdefault(getattr(row, by), []).append(row)
-    return dict(sorted(found.items())) if by == "cycles" else found
+        groups.setdefault(getattr(row, by), []).append(row)
+    return dict(sorted(groups.items())) if by == "cycles" else groups
 
 
 def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
-    """A method's time to so many digits with its ratio to the fastest, or what became of it."""
+    """Return a method's time to some digits with its ratio to the fastest, or its outcome."""
     ranking = best(runs, digits)
     for run in ranking:
         if run.method == method:
@@ -75,7 +75,7 @@ def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
 
 
 def duration(seconds: float) -> str:
-    """A time in the unit that suits.
+    """Return a time in a suitable unit.
 
     >>> duration(0.00213), duration(47.0), duration(9e4), duration(3e5), duration(4e9)
     ('2.1 ms', '47 s', '25 h', '3.5 days', '127 years')
@@ -87,7 +87,7 @@ def duration(seconds: float) -> str:
 
 
 def magnitude(error: float) -> str:
-    """The size of a relative error.
+    """Return the size of a relative error in words.
 
     >>> magnitude(0.41), magnitude(-2.3e-7), magnitude(17.0)
     ('41 %', '2e-7', '17-fold')
@@ -104,12 +104,12 @@ def _rounded(number: float) -> str:
 
 
 def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple[str, ...]:
-    """Return a sentence a number of cycles: for so many digits use X, it takes Y."""
-    found = []
-    for cycles, here in grouped(_of(runs, scene), "cycles").items():
-        ranking = best(here, digits)
+    """Return a sentence for each number of cycles: the fastest method to some digits, its time."""
+    texts = []
+    for cycles, group in grouped(_of(runs, scene), "cycles").items():
+        ranking = best(group, digits)
         if not ranking:
-            found.append(
+            texts.append(
                 f"{in_short(cycles, 5)} cycles, {digits} digits: nothing that was tried gets there."
             )
             continue
@@ -118,17 +118,16 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
         if others:
             ratio = others[0].seconds / first.seconds
             rest = f"{others[0].method} takes {_rounded(ratio)} times as long"
-        found.append(
+        texts.append(
             f"For {digits} digits of the wear after {in_short(cycles, 5)} "
             f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
             f"it takes {duration(first.seconds)}; {rest}."
         )
-    return tuple(found)
+    return tuple(texts)
 
 
 def silent_failures(runs: Sequence[Measurement]) -> tuple[Measurement, ...]:
-    """Runs that were off by more than a percent and did not say so, the worst of each method and
-    scene."""
+    """Return silently wrong runs, by more than a percent: the worst of each method and scene."""
     wrong = [run for run in runs if run.status is Status.WRONG]
     rising = sorted(wrong, key=lambda run: abs(run.error))
     worst = {(run.method, run.scene): run for run in rising}
@@ -139,15 +138,15 @@ def comparable(runs: Sequence[Measurement], scene: str) -> dict[int, list[Measur
     """Return the runs by number of cycles, beyond one, where enough methods have run to compare
     them."""
     return {
-        cycles: here
-        for cycles, here in grouped(_of(runs, scene), "cycles").items()
-        if cycles > 1 and len({run.method for run in here if run.repeats}) >= FEWEST_DRAWN
+        cycles: group
+        for cycles, group in grouped(_of(runs, scene), "cycles").items()
+        if cycles > 1 and len({run.method for run in group if run.repeats}) >= FEWEST_DRAWN
     }
 
 
 def curves(runs: Sequence[Measurement]) -> list[TimingCurve]:
-    """Return the runs of one case that took place, by method and rising tolerance; errors of zero
-    are shown at the resolution of double precision."""
+    """Return the completed runs of one case, by method and ascending tolerance; errors of zero are
+    shown at the resolution of double precision."""
     shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
     return [
         TimingCurve(
@@ -162,9 +161,9 @@ def curves(runs: Sequence[Measurement]) -> list[TimingCurve]:
 
 
 def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[TimingCurve]:
-    """Return each method's time to so many digits against the number of cycles, with what the next
-    number that it was not given time for was expected to take."""
-    made = []
+    """Return each method's time to a number of digits against the number of cycles, with the
+    expected time of the first number of cycles that was skipped."""
+    timings = []
     for name, of_method in grouped(_of(runs, scene), "method").items():
         points = []
         for cycles, own in grouped(of_method, "cycles").items():
@@ -174,15 +173,15 @@ def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> li
             elif waits and points:
                 points.append((cycles, min(waits), True))
         if points:
-            made.append(TimingCurve(name, *map(np.array, zip(*points, strict=True))))
-    return made
+            timings.append(TimingCurve(name, *map(np.array, zip(*points, strict=True))))
+    return timings
 
 
 class Result(NamedTuple):
-    """A benchmark with all that belongs to it.
+    """A benchmark: its runs, start-ups and circumstances.
 
-    `imports` are the seconds that each method's imports take in a fresh process, `absent` what a
-    peer needs and is not installed, `facts` those of `wear.benchmark.machine.machine`.
+    `imports` are the seconds of each method's imports in a new process, `absent` the packages of
+    peers that are not installed, `facts` those of `wear.benchmark.machine.machine`.
     """
 
     runs: tuple[Measurement, ...]
@@ -203,7 +202,7 @@ EXPLANATION = (
 WORDS = ("scene", "method", "what happened")  # headings of columns of words
 
 
-class Table(NamedTuple):
+class TextTable(NamedTuple):
     """A caption, a heading a column and rows of text."""
 
     caption: str
@@ -211,20 +210,20 @@ class Table(NamedTuple):
     rows: tuple[tuple[str, ...], ...]
 
 
-def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> Table:
-    """Methods against numbers of cycles."""
-    here = _of(runs, scene)
-    by_cycles = grouped(here, "cycles")
+def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> TextTable:
+    """Return the table of methods against numbers of cycles."""
+    of_scene = _of(runs, scene)
+    by_cycles = grouped(of_scene, "cycles")
     rows = [
-        (method, *(cell(some, method, digits) for some in by_cycles.values()))
-        for method in grouped(here, "method")
+        (method, *(cell(group, method, digits) for group in by_cycles.values()))
+        for method in grouped(of_scene, "method")
     ]
     header = ("method", *(f"N = {in_short(n, 5)}" for n in by_cycles))
-    return Table(f"{scene}, {digits} digits", header, tuple(rows))
+    return TextTable(f"{scene}, {digits} digits", header, tuple(rows))
 
 
-def start_table(result: Result) -> Table:
-    """What happens once: imports in a fresh process, then getting ready for a scene."""
+def start_table(result: Result) -> TextTable:
+    """Return the table of start-up times: imports in a new process, preparation for a scene."""
     rows = []
     for method, starts in grouped(result.starts, "method").items():
         ready = [start.seconds for start in starts]
@@ -232,36 +231,36 @@ def start_table(result: Result) -> Table:
         shown = "-" if imports is None else duration(imports)
         rows.append((method, shown, duration(min(ready)), duration(max(ready))))
     header = ("method", "imports", "ready, least", "ready, most")
-    return Table("Start-up, apart from the times above", header, tuple(rows))
+    return TextTable("Start-up, apart from the times above", header, tuple(rows))
 
 
-def failure_table(runs: Sequence[Measurement]) -> Table:
-    """Return the answers that were silently wrong."""
+def failure_table(runs: Sequence[Measurement]) -> TextTable:
+    """Return the table of silently wrong answers."""
     rows = [
         (run.method, run.scene, in_short(run.cycles, 5), f"{run.tolerance:g}", f"{run.error:+.0%}")
         for run in silent_failures(runs)
     ]
     header = ("method", "scene", "cycles", "tolerance", "true error")
-    return Table("Silently wrong by more than a percent", header, tuple(rows))
+    return TextTable("Silently wrong by more than a percent", header, tuple(rows))
 
 
-def tables(result: Result) -> tuple[Table, ...]:
-    """All tables, those of the scenes first."""
+def tables(result: Result) -> tuple[TextTable, ...]:
+    """Return all tables, those of the scenes first."""
     scenes = grouped(result.runs, "scene")
-    made = [speed_table(result.runs, scene, digits) for digits in DIGITS for scene in scenes]
-    made += [failure_table(result.runs), start_table(result)]
-    return tuple(table for table in made if table.rows)
+    every = [speed_table(result.runs, scene, digits) for digits in DIGITS for scene in scenes]
+    every += [failure_table(result.runs), start_table(result)]
+    return tuple(table for table in every if table.rows)
 
 
-def markdown_table(table: Table) -> str:
-    """A table of Markdown, its columns of words left-aligned."""
+def markdown_table(table: TextTable) -> str:
+    """Return a table in Markdown, its columns of words left-aligned."""
     rule = ["---" if name in WORDS else "---:" for name in table.header]
     lines = [table.header, rule, *table.rows]
     return "\n".join("| " + " | ".join(entries) + " |" for entries in lines)
 
 
 def markdown(result: Result, scene: str) -> str:
-    """The part of a page that is computed: sentences on one scene, tables, the machine."""
+    """Return the computed part of a page: sentences on one scene, tables, the machine."""
     parts = ["\n".join(f"- {sentence}" for sentence in sentences(result.runs, scene))]
     parts.append(EXPLANATION)
     for table in tables(result):
@@ -272,7 +271,7 @@ def markdown(result: Result, scene: str) -> str:
 
 
 def absences(result: Result) -> list[str]:
-    """A line for each method that could not take part."""
+    """Return a line for each method that could not take part."""
     return [
         f"{method}: not measured, {' and '.join(packages)} not installed"
         for method, packages in result.absent.items()
@@ -280,7 +279,7 @@ def absences(result: Result) -> list[str]:
 
 
 def csv_text(rows: Sequence[NamedTuple]) -> str:
-    """A line a row below the names of the fields; floats round-trip, None is empty."""
+    """Return rows as CSV below the names of their fields; floats round-trip, None is empty."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     if rows:
@@ -292,20 +291,20 @@ def csv_text(rows: Sequence[NamedTuple]) -> str:
 @cache
 def committed() -> Result:
     """Return the benchmark of documentation and report, which `make bench` renews."""
-    found = json.loads(COMMITTED.read_text(encoding="utf-8"))
+    data = json.loads(COMMITTED.read_text(encoding="utf-8"))
     runs = (
         Measurement(**row)._replace(
             status=Status(row["status"]), error=math.nan if row["error"] is None else row["error"]
         )
-        for row in found["measurements"]
+        for row in data["measurements"]
     )
-    starts = (StartUp(**row) for row in found["start_up"])
-    absent = {name: tuple(packages) for name, packages in found["not_installed"].items()}
-    return Result(tuple(runs), tuple(starts), found["import_seconds"], absent, found["machine"])
+    starts = (StartUp(**row) for row in data["start_up"])
+    absent = {name: tuple(packages) for name, packages in data["not_installed"].items()}
+    return Result(tuple(runs), tuple(starts), data["import_seconds"], absent, data["machine"])
 
 
 def document(result: Result, scene: str) -> dict[str, Any]:
-    """The JSON document of `wear bench`."""
+    """Return the JSON document of `wear bench`."""
     return {
         "machine": dict(result.facts),
         "sentences": list(sentences(result.runs, scene)),

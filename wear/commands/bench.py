@@ -22,7 +22,7 @@ from wear.faults import UsageError
 
 if TYPE_CHECKING:
     from wear.benchmark.methods import Method
-    from wear.benchmark.results import Result, Table
+    from wear.benchmark.results import Result, TextTable
 
 PEERS = Path(__file__).parents[2] / "docs" / "bench"
 HARD_SECONDS, HARD_SECONDS_QUICK = 2.0, 0.3
@@ -160,7 +160,7 @@ def _hard(options: Options) -> Answer:
     return Answer(document, lambda: "\n".join(lines))
 
 
-def _tables(tables: Sequence[Table]) -> Iterator[str]:
+def _tables(tables: Sequence[TextTable]) -> Iterator[str]:
     for table in tables:
         width = max(len(row[0]) for row in table.rows) if table.rows else 0
         rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]

@@ -2,8 +2,8 @@
 
 Overview
     The margin of contact 3 sigma - h rises one to one with the pin's displacement U_a. While the
-    contact is open nothing wears, so its next beginning is a crossing of the load alone. The
-    cycle is therefore cut where the load turns or has a kink, and each piece walked through.
+    contact is open nothing wears, so that it closes at a crossing of the load alone. The cycle is
+    therefore cut where the load turns or has a kink, and integrated piece by piece.
 Modes
     open      margin < 0: no wear
     closed    margin > 0: wear as without cutoff
@@ -22,27 +22,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Problem, Real, Setting, widest_step
+from wear.direct.problem import EPS, Real, ScaledEquation, Setting, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
 from wear.load import Load
 from wear.loss_of_contact.switching import turning_points
 from wear.model import Model
 
 TINY = float(np.finfo(float).tiny)
-SLIDING_LOOKS = 64  # phases of a piece at which the end of sliding is looked for
-NEARLY = 1e-12  # of a piece: how near to a peak one looks
+SLIDING_SAMPLES = 64  # phases of a piece at which the end of sliding is sought
+PEAK_OFFSET = 1e-12  # of a piece: distance from a peak at which its sharpness is examined
 MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
 
 
 class Mode(Enum):
-    """How the surfaces meet."""
+    """The state of contact."""
 
     OPEN = "open"
     CLOSED = "closed"
     SLIDING = "sliding"
 
 
-class Piece(NamedTuple):
+class MonotonePiece(NamedTuple):
     """An interval of phase in which the load is smooth and does not turn."""
 
     start: float
@@ -58,52 +58,53 @@ class Moment(NamedTuple):
     mode: Mode
 
 
-def pieces(load: Load) -> tuple[Piece, ...]:
+def pieces(load: Load) -> tuple[MonotonePiece, ...]:
     """Cut a cycle where the load turns or has a kink."""
     cuts = turning_points(load).tolist()
     ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * EPS]
-    return tuple(Piece(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
+    return tuple(MonotonePiece(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
 
 
-def first_mode(of: Problem, u: float) -> Mode:
+def first_mode(ode: ScaledEquation, u: float) -> Mode:
     """Return the mode at phase 0: a contact that only touches counts as open until it closes."""
-    return Mode.CLOSED if of.margin(0.0, u) > 0.0 else Mode.OPEN
+    return Mode.CLOSED if ode.margin(0.0, u) > 0.0 else Mode.OPEN
 
 
-def is_arrested(of: Problem, u: float, mode: Mode, maximum: float) -> bool:
-    """Return whether no load up to `maximum` (mm) closes the contact again, as far as rounding
-    tells."""
-    return mode is not Mode.CLOSED and _threshold(of, u) >= maximum - _slack(of, u)
+def is_arrested(ode: ScaledEquation, u: float, mode: Mode, maximum: float) -> bool:
+    """Return whether no load up to `maximum` (mm) closes the contact again, within rounding."""
+    return mode is not Mode.CLOSED and _threshold(ode, u) >= maximum - _slack(ode, u)
 
 
-def fades(of: Problem, cut: tuple[Piece, ...], u: float, maximum: float) -> bool:
-    """Return whether wear that has come to its end `u` (mm), as far as rounding tells, only tends
-    to it.
+def fades(ode: ScaledEquation, pieces: tuple[MonotonePiece, ...], u: float, maximum: float) -> bool:
+    """Return whether wear only approaches its end `u` (mm), which it has reached within rounding.
 
-    A rigid support stops wear at a smooth peak of the load, and at a plateau. At a peak so sharp
-    that the load closes the contact up to the very peak each cycle leaves a part of what is left;
-    a compliant support does so at any peak, since its pressure vanishes along with the margin.
+    With a rigid support wear stops at a smooth peak of the load, and at a plateau. At a peak so
+    sharp that the load closes the contact up to the peak itself, each cycle leaves a fraction of
+    the remaining margin; a compliant support does so at any peak, since its pressure vanishes with
+    the margin.
     """
-    if of.model.compliant:
+    if ode.model.compliant:
         return True
-    top = maximum - _slack(of, u)
+    top = maximum - _slack(ode, u)
 
-    def is_sharp(piece: Piece) -> bool:
-        near = NEARLY * (piece.end - piece.start)
+    def is_sharp(piece: MonotonePiece) -> bool:
+        near = PEAK_OFFSET * (piece.end - piece.start)
         if piece.rising:
-            return bool(_pull(of, piece.end - near, u) < 0.0)
-        return bool(of.load.slope(piece.start + near) < 0.0)
+            return bool(_opening_speed(ode, piece.end - near, u) < 0.0)
+        return bool(ode.load.slope(piece.start + near) < 0.0)
 
-    highest = [piece for piece in cut if of.load(piece.end if piece.rising else piece.start) >= top]
+    highest = [
+        piece for piece in pieces if ode.load(piece.end if piece.rising else piece.start) >= top
+    ]
     return bool(highest) and all(map(is_sharp, highest))
 
 
 def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
-    """Return the share of the closed contact's pressure that acts: 1 closed, 0 open, between when
-    sliding.
+    """Return the acting share of the pressure of the closed contact: 1 closed, 0 open, and between
+    them when sliding.
 
-    At the edge of contact a rigid support leaves the pressure undetermined; it is the share that
-    lets wear keep up with the load, which rises by `rise` mm/s. All broadcast.
+    At the edge of contact a rigid support leaves the pressure undetermined; the share is that at
+    which wear follows the load, which rises by `rise` mm/s. All broadcast.
     """
     margin = model.margin(u, U_a)
     opening = np.maximum(-model.margin_slope(u, U_a) * model.rate(u, U_a), TINY)
@@ -118,7 +119,12 @@ def roundoff(model: Model, u: Real, U_a: Real) -> Real:
 
 
 def cycle(
-    of: Problem, cut: tuple[Piece, ...], u: float, mode: Mode, setting: Setting, meter: Meter
+    ode: ScaledEquation,
+    pieces: tuple[MonotonePiece, ...],
+    u: float,
+    mode: Mode,
+    setting: Setting,
+    meter: Meter,
 ) -> tuple[float, Mode]:
     """Return the wear (mm) and mode at the end of a cycle that starts with wear `u` in `mode`.
 
@@ -126,11 +132,11 @@ def cycle(
     ------
     TimeoutError, EndOfModelError
     """
-    longest = widest_step(of, u, 1.0)
-    for piece in cut:
+    longest = widest_step(ode, u, 1.0)
+    for piece in pieces:
         now = Moment(piece.start, u, mode)
         for _ in range(MOST_LEGS):
-            now = _next(of, piece, now, setting, meter, longest)
+            now = _next(ode, piece, now, setting, meter, longest)
             if now.phase >= piece.end:
                 break
         else:
@@ -140,62 +146,72 @@ def cycle(
 
 
 def _next(
-    of: Problem, piece: Piece, now: Moment, setting: Setting, meter: Meter, longest: float
+    ode: ScaledEquation,
+    piece: MonotonePiece,
+    now: Moment,
+    setting: Setting,
+    meter: Meter,
+    longest: float,
 ) -> Moment:
-    """Go on to the next change of mode, or to the end of the piece."""
+    """Return the state at the next change of mode, or at the end of the piece."""
     if now.mode is Mode.CLOSED:
-        return _wear(of, piece, now, setting, meter, longest)
+        return _wear(ode, piece, now, setting, meter, longest)
     if not piece.rising:
         return Moment(piece.end, now.u, Mode.OPEN)
     if now.mode is Mode.OPEN:
-        return _close(of, piece, now)
-    return _slide(of, piece, now)
+        return _close(ode, piece, now)
+    return _slide(ode, piece, now)
 
 
 def _wear(
-    of: Problem, piece: Piece, now: Moment, setting: Setting, meter: Meter, longest: float
+    ode: ScaledEquation,
+    piece: MonotonePiece,
+    now: Moment,
+    setting: Setting,
+    meter: Meter,
+    longest: float,
 ) -> Moment:
     # A compliant support lets the pressure fall to zero at the edge of contact, so that a rising
     # load never loses it.
-    slack = None if of.model.compliant and piece.rising else _slack(of, now.u)
-    kink = _following(of) if of.model.compliant else None
-    phase, u, opened = leg(of, now.u, now.phase, piece.end, setting, meter, longest, slack, kink)
+    slack = None if ode.model.compliant and piece.rising else _slack(ode, now.u)
+    kink = _following(ode) if ode.model.compliant else None
+    phase, u, opened = leg(ode, now.u, now.phase, piece.end, setting, meter, longest, slack, kink)
     if not opened:
         return Moment(phase, u, Mode.CLOSED)
     return Moment(phase, u, Mode.SLIDING if piece.rising else Mode.OPEN)
 
 
-def _following(of: Problem) -> Callable[[Real, Real], Real]:
-    """Return how far the wear rate at the edge of contact is above that of the contact law (mm/s).
+def _following(ode: ScaledEquation) -> Callable[[Real, Real], Real]:
+    """Return the excess of the wear rate at the edge of contact over the contact law's (mm/s).
 
     While it is negative, a compliant support keeps the contact at its edge.
     """
 
     def excess(phase: Real, u: Real) -> Real:
-        U_a = of.load(phase)
-        edge, _ = of.model.edge_rate_and_slope(u, U_a)
-        return edge - of.model.law_rate(u, U_a)
+        U_a = ode.load(phase)
+        edge, _ = ode.model.edge_rate_and_slope(u, U_a)
+        return edge - ode.model.law_rate(u, U_a)
 
     return excess
 
 
-def _close(of: Problem, piece: Piece, now: Moment) -> Moment:
-    """Wait, open, for the load to close the gap."""
-    threshold = _threshold(of, now.u)
-    if of.load(piece.end) <= threshold + _slack(of, now.u):
+def _close(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
+    """Return the state at which the load closes the open contact, or the end of the piece."""
+    threshold = _threshold(ode, now.u)
+    if ode.load(piece.end) <= threshold + _slack(ode, now.u):
         return Moment(piece.end, now.u, Mode.OPEN)
     phase = now.phase
-    if of.load(phase) < threshold:
-        phase = first_zero(lambda at: of.load(at) - threshold, phase, piece.end)
-    holds = of.model.compliant or _pull(of, phase, now.u) < 0.0
+    if ode.load(phase) < threshold:
+        phase = first_zero(lambda at: ode.load(at) - threshold, phase, piece.end)
+    holds = ode.model.compliant or _opening_speed(ode, phase, now.u) < 0.0
     return Moment(phase, now.u, Mode.CLOSED if holds else Mode.SLIDING)
 
 
-def _slide(of: Problem, piece: Piece, now: Moment) -> Moment:
-    """Follow the edge of contact until the load closes faster than wear can open."""
-    phases = np.linspace(now.phase, piece.end, SLIDING_LOOKS + 1)
-    wear = _edge(of, phases, np.full(phases.shape, now.u))
-    leaves = np.flatnonzero(_pull(of, phases, wear)[:-1] < 0.0)
+def _slide(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
+    """Follow the edge of contact until the load closes faster than wear can open it."""
+    phases = np.linspace(now.phase, piece.end, SLIDING_SAMPLES + 1)
+    wear = _edge_wear(ode, phases, np.full(phases.shape, now.u))
+    leaves = np.flatnonzero(_opening_speed(ode, phases, wear)[:-1] < 0.0)
     if len(leaves) == 0:
         return Moment(piece.end, max(now.u, float(wear[-1])), Mode.SLIDING)
     if leaves[0] == 0:  # a kink of the load
@@ -203,40 +219,40 @@ def _slide(of: Problem, piece: Piece, now: Moment) -> Moment:
     first = int(leaves[0]) - 1
 
     def pull(phase: float) -> Real:
-        return _pull(of, phase, _edge(of, phase, float(wear[first])))
+        return _opening_speed(ode, phase, _edge_wear(ode, phase, float(wear[first])))
 
     phase = first_zero(pull, float(phases[first]), float(phases[first + 1]))
-    u = max(now.u, float(_edge(of, phase, float(wear[first]))))
+    u = max(now.u, float(_edge_wear(ode, phase, float(wear[first]))))
     return Moment(phase, u, Mode.CLOSED)
 
 
-def _pull(of: Problem, phase: Real, u: Real) -> Real:
-    """Return how fast closed contact at the edge would open (mm per cycle); negative: it closes."""
-    U_a = of.load(phase)
-    opening = -of.model.margin_slope(u, U_a) * of.load.period * of.model.rate(u, U_a)
-    return opening - of.load.slope(phase)
+def _opening_speed(ode: ScaledEquation, phase: Real, u: Real) -> Real:
+    """Return the speed (mm per cycle) at which closed contact at the edge opens; if negative, it
+    closes."""
+    U_a = ode.load(phase)
+    opening = -ode.model.margin_slope(u, U_a) * ode.load.period * ode.model.rate(u, U_a)
+    return opening - ode.load.slope(phase)
 
 
-def _edge(of: Problem, phase: Real, u: Real) -> Real:
+def _edge_wear(ode: ScaledEquation, phase: Real, u: Real) -> Real:
     """Return the wear at which the margin is zero, by Newton's method from the nearby wear `u`.
 
     The margin is convex in u, and linear for one rough surface.
     """
-    U_a = of.load(phase)
+    U_a = ode.load(phase)
     for _ in range(50):
-        step = of.model.margin(u, U_a) / of.model.margin_slope(u, U_a)
+        step = ode.model.margin(u, U_a) / ode.model.margin_slope(u, U_a)
         u = u - step
         if np.all(np.abs(step) <= 4 * EPS * np.abs(u)):
             break
     return u
 
 
-def _threshold(of: Problem, u: float) -> float:
-    """Return the displacement U_a (mm) that just closes the contact: the margin's slope in U_a is
-    1."""
-    return -float(of.model.margin(u, 0.0))
+def _threshold(ode: ScaledEquation, u: float) -> float:
+    """Return the displacement U_a (mm) that just closes the contact; the margin has slope 1."""
+    return -float(ode.model.margin(u, 0.0))
 
 
-def _slack(of: Problem, u: float) -> float:
+def _slack(ode: ScaledEquation, u: float) -> float:
     """Return the uncertainty of the margin over the cycle (mm)."""
-    return max(float(roundoff(of.model, u, U_a)) for U_a in (of.load.minimum, of.load.maximum))
+    return max(float(roundoff(ode.model, u, U_a)) for U_a in (ode.load.minimum, ode.load.maximum))

@@ -1,7 +1,7 @@
-"""The differential equation as an integrator sees it: d(u_c/unit)/dphase for one scene.
+"""The differential equation for an integrator: d(u_c/unit)/dphase for one scene.
 
-Wear is some 1e-4 mm, so an absolute tolerance in millimetres would mean nothing: the variable is
-scaled by about the wear of the first cycle. Time runs in phase (cycles) since the start of a whole
+Wear is of the order of 1e-4 mm, so that an absolute tolerance needs a scaled variable: the unit is
+about the wear of the first cycle. The time is the phase (in cycles) since the start of a whole
 cycle, so that after any number of cycles the load is evaluated with a small argument.
 """
 
@@ -19,14 +19,15 @@ Real = Any  # a float or an array of floats: loads and models broadcast
 EPS = float(np.finfo(float).eps)
 PHASES = 2048  # samples of a cycle for estimates of scale and sharpness
 STEP_PER_PULSE = 0.75  # longest step over the standard deviation of a contact pulse
-DEPTH = 20.0  # up to how many roughnesses of closure the contact law is looked at
+DEPTH = 20.0  # closure in roughnesses up to which the contact law is sampled
 
 
 class Setting(NamedTuple):
-    """How finely to integrate: SciPy's `method`, its tolerance, and the share of the widest step.
+    """The settings of an integration: SciPy's `method`, its tolerance, and the share of the widest
+    step.
 
-    Two runs whose difference is to tell an error must differ in both: where the widest step binds,
-    the tolerance alone changes nothing.
+    Two runs whose difference estimates an error must differ in both: where the widest step limits
+    the steps, the tolerance has no effect.
     """
 
     method: str
@@ -35,8 +36,8 @@ class Setting(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Problem:
-    """A model under its load, with the scale of its wear.
+class ScaledEquation:
+    """The wear equation of a model under its load, with the scale of its wear.
 
     `unit` (mm) is about the wear of the first cycle. `limit` (mm) is the wear at which the only
     rough surface has become perfectly smooth (infinity if that cannot happen): there the model,
@@ -53,12 +54,12 @@ class Problem:
         return self.load.period * self.model.rate(u, self.load(phase))
 
     def margin(self, phase: Real, u: Real) -> Real:
-        """Return how deep in contact, in mm: negative when open (cutoff only)."""
+        """Return the margin of contact in mm: negative when open (with loss of contact only)."""
         return self.model.margin(u, self.load(phase))
 
 
-def problem(model: Model, load: Load) -> Problem:
-    """Scale the wear of a model under a load."""
+def scaled_equation(model: Model, load: Load) -> ScaledEquation:
+    """Return the equation of a model under a load, with its scale of wear."""
     U_a = load(_grid(load))
     rate = model.rate(0.0, U_a)
     if model.ends_at_3_sigma:
@@ -66,10 +67,10 @@ def problem(model: Model, load: Load) -> Problem:
     first_cycle = load.period * float(np.mean(rate))
     roughness = float(model.fields(0.0, load.maximum).sigma)
     unit = min(first_cycle, roughness) or roughness
-    return Problem(model, load, unit, _smooth_at(model, load, roughness))
+    return ScaledEquation(model, load, unit, _smooth_at(model, load, roughness))
 
 
-def widest_step(of: Problem, u: float, end: float) -> float:
+def widest_step(ode: ScaledEquation, u: float, end: float) -> float:
     """Return the longest step, in cycles, that cannot jump over a contact pulse when the wear is
     `u`.
 
@@ -78,16 +79,15 @@ def widest_step(of: Problem, u: float, end: float) -> float:
     standard deviation 1/sqrt(-lambda U_a''). A flatter pulse, of a saturated contact, is longer.
     `end` is the length of the integration, returned where there are no pulses.
     """
-    steepness = _logarithmic_slope(of.model, of.load, u)
-    curvature = _sharpest_bend(of.load)
+    steepness = _logarithmic_slope(ode.model, ode.load, u)
+    curvature = _sharpest_curvature(ode.load)
     if steepness * curvature <= 0.0:
         return end
     return min(end, STEP_PER_PULSE / float(np.sqrt(steepness * curvature)))
 
 
 def _grid(load: Load) -> Any:
-    """Return the phases of a cycle, its peaks among them: a needle between the samples is not
-    missed."""
+    """Return the phases of a cycle, with its peaks, so that no narrow pulse is missed."""
     return np.concatenate([np.arange(PHASES) / PHASES, load.peaks])
 
 
@@ -100,27 +100,29 @@ def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
     touching = load.maximum + min(float(deepest.h), 0.0)
     displacement = touching - float(deepest.sigma) * np.linspace(0.0, DEPTH, 81)
     rate = np.asarray(model.rate(u, displacement))
-    seen = rate > np.finfo(float).tiny
-    if np.count_nonzero(seen) < 2:
+    positive = rate > np.finfo(float).tiny
+    if np.count_nonzero(positive) < 2:
         return 0.0
-    return float(np.max(np.diff(np.log(rate[seen])) / np.diff(displacement[seen])))
+    return float(np.max(np.diff(np.log(rate[positive])) / np.diff(displacement[positive])))
 
 
-def _sharpest_bend(load: Load) -> float:
+def _sharpest_curvature(load: Load) -> float:
     """Return the largest -U_a'' (mm per cycle squared) where the load is smooth.
 
-    At a kink the integrator stops anyway, and so cannot jump over it.
+    The integrator stops at kinks and cannot step over them.
     """
     phases = np.arange(PHASES + 1) / PHASES
-    bend = -np.diff(load.slope(phases)) * PHASES
+    curvature = -np.diff(load.slope(phases)) * PHASES
     for kink in load.kinks:
-        bend[np.abs((phases[:-1] + 0.5 / PHASES - kink + 0.5) % 1.0 - 0.5) < 1.0 / PHASES] = 0.0
-    return float(max(0.0, np.max(bend)))
+        curvature[np.abs((phases[:-1] + 0.5 / PHASES - kink + 0.5) % 1.0 - 0.5) < 1.0 / PHASES] = (
+            0.0
+        )
+    return float(max(0.0, np.max(curvature)))
 
 
 def _smooth_at(model: Model, load: Load, roughness: float) -> float:
     """Return the wear at which the only rough surface is smooth, infinite if there is none."""
-    fresh, worn = (model.fields(u, load.maximum) for u in (0.0, roughness))
-    if "sigma_a" in fresh._fields or worn.sigma_c >= fresh.sigma_c:
+    initial, worn = (model.fields(u, load.maximum) for u in (0.0, roughness))
+    if "sigma_a" in initial._fields or worn.sigma_c >= initial.sigma_c:
         return np.inf
-    return float(roughness * fresh.sigma_c / (fresh.sigma_c - worn.sigma_c))
+    return float(roughness * initial.sigma_c / (initial.sigma_c - worn.sigma_c))

@@ -1,7 +1,7 @@
-"""One leg of an integration: SciPy's solver from one phase to another, where all is smooth.
+"""One leg of an integration: SciPy's solver from one phase to another, where the rate is smooth.
 
-Nothing but `leg` knows SciPy. A leg ends early where contact is lost (`until_open`), where the
-roughness vanishes, or by an exception: the clock, the user, or a solver that gives up.
+Only this module uses SciPy's solvers. A leg ends early where contact is lost or the rate has a
+kink, or by an exception: the roughness vanishes, the time limit passes, or the solver fails.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Problem, Real, Setting
+from wear.direct.problem import EPS, Real, ScaledEquation, Setting
 from wear.progress import Pace
 
 METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
-NEAR = 1e-6  # of a cycle: by how much an interpolant may misplace the end of contact
-LOOKS_PER_STEP = 8  # where a step is searched for the end of contact
+NEAR = 1e-6  # of a cycle: largest error of the interpolated end of contact
+SAMPLES_PER_STEP = 8  # at which a step is searched for the end of contact
 
 
 class EndOfModelError(Exception):
@@ -28,7 +28,7 @@ class EndOfModelError(Exception):
 
 @dataclass
 class Meter:
-    """What an integration has cost so far, and when it has to stop (`time.monotonic`)."""
+    """The cost of an integration so far, and its deadline (`time.monotonic`)."""
 
     deadline: float = np.inf
     pace: Pace = field(default_factory=Pace)
@@ -43,8 +43,8 @@ class Meter:
         self.pace.begin(f"{run}: cycle", last)
 
     def step(self, phase: float = 0.0) -> None:
-        """Count a step, that ends so many cycles after the last that was counted; raise when time
-        is up."""
+        """Count a step, which ends `phase` cycles after the last counted cycle; raise after the
+        deadline."""
         self.steps += 1
         if time.monotonic() > self.deadline:
             raise TimeoutError
@@ -52,7 +52,7 @@ class Meter:
 
 
 class Leg(NamedTuple):
-    """Where a leg ended: phase, wear in mm, and whether it ended because contact was lost."""
+    """The end of a leg: phase, wear in mm, and whether contact was lost there."""
 
     phase: float
     u: float
@@ -60,7 +60,7 @@ class Leg(NamedTuple):
 
 
 def leg(
-    of: Problem,
+    ode: ScaledEquation,
     u: float,
     start: float,
     end: float,
@@ -73,13 +73,13 @@ def leg(
     """Integrate in contact from phase `start` with wear `u` to phase `end`.
 
     With `slack` (mm) the leg ends as soon as the margin of contact falls below `-slack`; with
-    `kink`, a function of phase and wear, where that changes sign: there the rate has a kink.
+    `kink`, a function of phase and wear, where the function changes sign: a kink of the rate.
 
     Raises
     ------
     TimeoutError, EndOfModelError
     """
-    solver = _solver(of, u, start, end, setting, meter, longest)
+    solver = _solver(ode, u, start, end, setting, meter, longest)
     side = 0.0
     while solver.status == "running":
         before = Leg(float(solver.t), u, False)
@@ -87,57 +87,63 @@ def leg(
         meter.step(float(solver.t))
         if solver.status == "failed":
             raise EndOfModelError(f"{setting.method} gave up: {str(complaint).rstrip('.')}")
-        u = float(solver.y[0]) * of.unit
-        if u >= of.limit * (1.0 - 1e-9):
+        u = float(solver.y[0]) * ode.unit
+        if u >= ode.limit * (1.0 - 1e-9):
             raise EndOfModelError(
-                f"the only rough surface has become smooth at u_c = {of.limit:.6g} mm, "
+                f"the only rough surface has become smooth at u_c = {ode.limit:.6g} mm, "
                 "where the model ends"
             )
         if slack is None and kink is None:
             continue
-        step = _Step(solver.dense_output(), before.phase, float(solver.t), of.unit)
+        step = _Step(solver.dense_output(), before.phase, float(solver.t), ode.unit)
         side = side or (0.0 if kink is None else step.side(kink))
-        bent = None if kink is None else step.first(_times(side, kink))
-        opened = None if slack is None else step.first(_plus(slack, of.margin))
-        found = opened if bent is None else bent
+        kink_phase = None if kink is None else step.first(_scaled(side, kink))
+        opened = None if slack is None else step.first(_shifted(slack, ode.margin))
+        found = opened if kink_phase is None else kink_phase
         if found is None:
             continue
-        # The interpolant is not as exact as a step, and a step over a kink not on either side.
+        # The interpolant is less accurate than a step, and a step over a kink is inaccurate.
         if found > before.phase:
-            before = leg(of, before.u, before.phase, found, setting, meter, longest)
-        if bent is not None:
+            before = leg(ode, before.u, before.phase, found, setting, meter, longest)
+        if kink_phase is not None:
             return before
-        return _opened(of, before, slack or 0.0)
+        return _opened(ode, before, slack or 0.0)
     return Leg(float(solver.t), u, False)
 
 
-def _opened(of: Problem, at: Leg, slack: float) -> Leg:
+def _opened(ode: ScaledEquation, at: Leg, slack: float) -> Leg:
     """Return the end of contact near a leg's end, by a step of Newton's method on the margin."""
-    speed = of.speed(at.phase, at.u)
-    slope = of.model.margin_slope(at.u, of.load(at.phase))
-    falls = float(of.load.slope(at.phase) + slope * speed)
-    left = float(of.margin(at.phase, at.u)) + slack
+    speed = ode.speed(at.phase, at.u)
+    slope = ode.model.margin_slope(at.u, ode.load(at.phase))
+    falls = float(ode.load.slope(at.phase) + slope * speed)
+    left = float(ode.margin(at.phase, at.u)) + slack
     ahead = float(np.clip(-left / falls, -NEAR, NEAR)) if falls < 0.0 else 0.0
     return Leg(at.phase + ahead, at.u + float(speed) * ahead, True)
 
 
 def _solver(
-    of: Problem, u: float, start: float, end: float, setting: Setting, meter: Meter, longest: float
+    ode: ScaledEquation,
+    u: float,
+    start: float,
+    end: float,
+    setting: Setting,
+    meter: Meter,
+    longest: float,
 ) -> Any:
     from scipy import integrate
 
-    ceiling = of.limit * (1.0 - 1e-12)  # no stage of a step may look beyond the end of the model
-    scale = of.load.period / of.unit
-    rate, slope, load = of.model.rate, of.model.slope, of.load
+    ceiling = ode.limit * (1.0 - 1e-12)  # no stage of a step may look beyond the end of the model
+    scale = ode.load.period / ode.unit
+    rate, slope, load = ode.model.rate, ode.model.slope, ode.load
 
     def right_hand_side(phase: float, y: Any) -> Any:
         meter.evaluations += 1
-        return [scale * rate(min(y[0] * of.unit, ceiling), float(load(phase)))]
+        return [scale * rate(min(y[0] * ode.unit, ceiling), float(load(phase)))]
 
     def jacobian(phase: float, y: Any) -> Any:
         meter.evaluations += 1
         return np.array(
-            [[of.load.period * slope(min(y[0] * of.unit, ceiling), float(load(phase)))]]
+            [[ode.load.period * slope(min(y[0] * ode.unit, ceiling), float(load(phase)))]]
         )
 
     options: dict[str, Any] = (
@@ -147,7 +153,7 @@ def _solver(
     return kind(
         right_hand_side,
         start,
-        [u / of.unit],
+        [u / ode.unit],
         end,
         rtol=setting.tolerance,
         atol=setting.tolerance,
@@ -157,7 +163,7 @@ def _solver(
 
 
 class _Step(NamedTuple):
-    """A step that was made, with its interpolant."""
+    """A completed step, with its interpolant."""
 
     dense: Callable[[Real], Any]
     start: float
@@ -169,13 +175,13 @@ class _Step(NamedTuple):
         return self.dense(phase)[0] * self.unit
 
     def side(self, function: Callable[[Real, Real], Real]) -> float:
-        """Return the sign of a function soon after the start, which may be its zero."""
-        phase = self.start + (self.end - self.start) / LOOKS_PER_STEP
+        """Return the sign of a function shortly after the start, where it may be zero."""
+        phase = self.start + (self.end - self.start) / SAMPLES_PER_STEP
         return float(np.sign(function(phase, float(self.wear(phase)))))
 
     def first(self, function: Callable[[Real, Real], Real]) -> float | None:
-        """Return the first phase at which a function of phase and wear has become negative or 0."""
-        phases = np.linspace(self.start, self.end, LOOKS_PER_STEP + 1)
+        """Return the first phase at which a function of phase and wear becomes negative."""
+        phases = np.linspace(self.start, self.end, SAMPLES_PER_STEP + 1)
         below = np.flatnonzero(function(phases, self.wear(phases))[1:] < 0.0)
         if len(below) == 0:
             return None
@@ -187,18 +193,18 @@ class _Step(NamedTuple):
         return first_zero(value, float(phases[at]), float(phases[at + 1]))
 
 
-def _times(factor: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
+def _scaled(factor: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
     return lambda phase, wear: factor * function(phase, wear)
 
 
-def _plus(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
+def _shifted(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
     return lambda phase, wear: function(phase, wear) + term
 
 
 def first_zero(function: Callable[[float], Any], start: float, end: float) -> float:
     """Return the zero of a function that changes sign between `start` and `end`, to roundoff.
 
-    A start that roundoff has put beyond the zero counts as the zero.
+    Without a change of sign, as by roundoff, it is the end with the smaller value.
     """
     from scipy.optimize import brentq
 
