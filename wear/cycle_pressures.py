@@ -82,7 +82,7 @@ def _wear_of_unit(model: Model, scene: Scene) -> float:
     return float(rate) / float(pressure)
 
 
-class _CycleSamples(NamedTuple):
+class _OnMesh(NamedTuple):
     """A quantity of n cycles at the edges (n, q + 1) and nodes (n, q, m) of a mesh."""
 
     edges: FloatArray
@@ -96,11 +96,9 @@ class _CycleSamples(NamedTuple):
         return np.concatenate([self.edges[:, :-1, None], inner, self.edges[:, 1:, None]], axis=-1)
 
 
-def _sampled(values: FloatArray, over: Mesh) -> _CycleSamples:
+def _sampled(values: FloatArray, over: Mesh) -> _OnMesh:
     edges = len(over.edges)
-    return _CycleSamples(
-        values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape)
-    )
+    return _OnMesh(values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape))
 
 
 def _pressures(
@@ -142,7 +140,7 @@ def _largest(values: FloatArray) -> FloatArray:
 
 
 def _mean(
-    part: Inside, p: _CycleSamples, over: Mesh, rule_error: FloatArray, wear_of_unit: FloatArray
+    part: Inside, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_of_unit: FloatArray
 ) -> FloatArray:
     """Return the mean pressure (n,) in MPa from the wear of the cycle, or by the rule where its
     `rule_error` (n,) is smaller."""
@@ -154,7 +152,7 @@ def _mean(
 
 
 def _share_above_zero(
-    margin: _CycleSamples, touching: _CycleSamples, over: Mesh, whole: NDArray[np.bool_]
+    margin: _OnMesh, touching: _OnMesh, over: Mesh, whole: NDArray[np.bool_]
 ) -> FloatArray:
     """Return the share (n,) of the cycle in which the margin is positive, or contact is held at
     zero."""

@@ -194,8 +194,8 @@ class Sensitivities:
     The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
     (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
     to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite where
-    the count does not reach. `notices` say what is hardly meant, and where a derivative is that
-    from one side.
+    the wear could not be computed. `notices` list implausible magnitudes, and one-sided
+    derivatives.
     """
 
     scene: Scene

@@ -98,7 +98,7 @@ def equation(scene: Scene) -> Equation:
         unless it is one smooth differential equation under a sine load.
     """
     from wear.binding import bind
-    from wear.direct.problem import scaled_equation, widest_step
+    from wear.direct.problem import scaled_ode, widest_step
     from wear.load import Sine
 
     if (
@@ -108,7 +108,7 @@ def equation(scene: Scene) -> Equation:
     ):
         raise UnsuitableError("not set up for a support, a cutoff or a load that is no sine")
     model = bind(scene)
-    of = scaled_equation(model, scene.load)
+    of = scaled_ode(model, scene.load)
     constants = model.constants._replace(
         **{name: float(value) for name, value in model.constants._asdict().items()}
     )

@@ -18,7 +18,7 @@ from wear.benchmark.machine import footer, machine, missing
 from wear.benchmark.methods import CYCLES, OWN, Answer, Case, Method, UnsuitableError, cases, names
 from wear.binding import bind
 from wear.commands import bench
-from wear.direct.problem import scaled_equation
+from wear.direct.problem import scaled_ode
 from wear.scene import load_scene
 
 peers, jumps = bench.load_peers("peers"), bench.load_peers("jumps")
@@ -203,7 +203,7 @@ def test_a_traced_right_hand_side_is_the_generated_one(name):
     """With Python's own numbers as the peer's expressions."""
     scene = load_scene(name)
     given, model = peers.equation(scene), bind(scene)
-    unit = scaled_equation(model, scene.periodic_load).unit
+    unit = scaled_ode(model, scene.periodic_load).unit
     for phase in (0.0, 0.2, 0.6):
         for y in (0.0, 3.0):
             load = scene.periodic_load(phase)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from wear import direct
 from wear.binding import bind
-from wear.direct.problem import Setting, scaled_equation, widest_step
+from wear.direct.problem import Setting, scaled_ode, widest_step
 from wear.direct.step import Meter, leg
 from wear.load import Constant, Sine
 from wear.scene import Scene, load_scene
@@ -78,7 +78,7 @@ def test_the_estimate_is_honest_for_any_request(name, rtol, reached):
 def test_steps_of_fixed_length_converge_with_the_order_of_the_method(method, order):
     """On half a cycle (over a whole one the errors of a smooth periodic function cancel)."""
     scene = reference_scene("S2")
-    of = scaled_equation(bind(scene), scene.load)
+    of = scaled_ode(bind(scene), scene.load)
     exact = leg(of, 0.0, 0.0, 0.4, Setting("DOP853", 1e-13, 1.0), Meter(), 1e-3).u
     counts = (8, 12, 16, 24) if order == 8 else (32, 64, 128)
     errors = [
@@ -127,7 +127,7 @@ def test_methods_agree_on_drawn_scenes(f_c, log_K, amplitude, closure, method):
 def test_steps_resolve_the_pulses_of_a_large_swing():
     """U = 10 h_0: pulses of a hundredth of a period once the contact is worn in."""
     scene = made(f_c=0.0, load=Sine(1.08e-2, 0.06))
-    of = scaled_equation(bind(scene), scene.load)
+    of = scaled_ode(bind(scene), scene.load)
     deviation = math.sqrt(3.6e-4 / (4 * 4 * math.pi**2 * 1.08e-2))  # of exp(4 U_a/sigma)
     assert deviation < 0.015
     assert 0.0 < widest_step(of, 0.0, 1.0) <= deviation
@@ -138,7 +138,7 @@ def test_steps_resolve_the_pulses_of_a_large_swing():
 def test_without_a_pulse_steps_may_be_long():
     scene = reference_scene("S7")
     assert isinstance(scene.load, Constant)
-    assert widest_step(scaled_equation(bind(scene), scene.load), 0.0, 100.0) == 100.0
+    assert widest_step(scaled_ode(bind(scene), scene.load), 0.0, 100.0) == 100.0
 
 
 def test_the_end_of_the_model_is_told_with_what_there_is():

@@ -12,7 +12,7 @@ from wear import cycles as count
 from wear import direct
 from wear.binding import bind
 from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
-from wear.direct.problem import scaled_equation
+from wear.direct.problem import scaled_ode
 from wear.load import Constant, Harmonics, Sine, Table
 from wear.scene import Scene
 
@@ -166,7 +166,7 @@ def test_at_an_edge_that_wear_does_not_open_the_load_decides(rise, share):
 
 def test_a_gap_that_no_load_closes_never_wears():
     scene = made(load=Constant(-1e-4, 0.06), cutoff=True)
-    of = scaled_equation(bind(scene), scene.load)
+    of = scaled_ode(bind(scene), scene.load)
     assert first_mode(of, 0.0) is Mode.OPEN
     assert is_arrested(of, 0.0, Mode.OPEN, scene.load.maximum)
     result = integrate(scene, [1, 10**12])

@@ -20,7 +20,7 @@ import numpy as np
 
 from wear.direct import cutoff
 from wear.direct.cutoff import Mode
-from wear.direct.problem import EPS, ScaledEquation, Setting, scaled_equation, widest_step
+from wear.direct.problem import EPS, Setting, WearODE, scaled_ode, widest_step
 from wear.direct.step import (
     FINEST_TOLERANCE,
     METHODS,
@@ -156,7 +156,7 @@ def _march(
 ) -> Iterator[State]:
     """Yield the states at the marked cycles, one after another."""
     acting = span(load, 0)
-    ode = scaled_equation(model, acting.load)
+    ode = scaled_ode(model, acting.load)
     state, steps_before = State(0, 0.0, _mode(ode, 0.0), None, 0), meter.steps
     if model.ends_at_3_sigma and cutoff.is_arrested(ode, 0.0, state.mode, load.maximum):
         state = state._replace(arrested_in=0)
@@ -175,13 +175,11 @@ def _march(
         yield state
 
 
-def _mode(ode: ScaledEquation, u: float) -> Mode:
+def _mode(ode: WearODE, u: float) -> Mode:
     return cutoff.first_mode(ode, u) if ode.model.ends_at_3_sigma else Mode.CLOSED
 
 
-def _smooth_cycles(
-    ode: ScaledEquation, state: State, to: int, setting: Setting, meter: Meter
-) -> State:
+def _smooth_cycles(ode: WearODE, state: State, to: int, setting: Setting, meter: Meter) -> State:
     """Integrate up to cycle `to`, stopping at kinks of the load only."""
     length = to - state.cycle
     u, phase = state.u, 0.0
@@ -200,7 +198,7 @@ def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
 
 
 def _cycles_with_cutoff(
-    ode: ScaledEquation, state: State, to: int, setting: Setting, meter: Meter, maximum: float
+    ode: WearODE, state: State, to: int, setting: Setting, meter: Meter, maximum: float
 ) -> State:
     """Integrate up to cycle `to`, or to the end of the cycle in which wear stops."""
     pieces = cutoff.pieces(ode.load)

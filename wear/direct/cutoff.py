@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Real, ScaledEquation, Setting, widest_step
+from wear.direct.problem import EPS, Real, Setting, WearODE, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
 from wear.load import Load
 from wear.loss_of_contact.switching import turning_points
@@ -42,7 +42,7 @@ class Mode(Enum):
     SLIDING = "sliding"
 
 
-class MonotonePiece(NamedTuple):
+class Section(NamedTuple):
     """An interval of phase in which the load is smooth and does not turn."""
 
     start: float
@@ -58,36 +58,36 @@ class Moment(NamedTuple):
     mode: Mode
 
 
-def pieces(load: Load) -> tuple[MonotonePiece, ...]:
+def pieces(load: Load) -> tuple[Section, ...]:
     """Cut a cycle where the load turns or has a kink."""
     cuts = turning_points(load).tolist()
     ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * EPS]
-    return tuple(MonotonePiece(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
+    return tuple(Section(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
 
 
-def first_mode(ode: ScaledEquation, u: float) -> Mode:
+def first_mode(ode: WearODE, u: float) -> Mode:
     """Return the mode at phase 0: a contact that only touches counts as open until it closes."""
     return Mode.CLOSED if ode.margin(0.0, u) > 0.0 else Mode.OPEN
 
 
-def is_arrested(ode: ScaledEquation, u: float, mode: Mode, maximum: float) -> bool:
+def is_arrested(ode: WearODE, u: float, mode: Mode, maximum: float) -> bool:
     """Return whether no load up to `maximum` (mm) closes the contact again, within rounding."""
     return mode is not Mode.CLOSED and _threshold(ode, u) >= maximum - _slack(ode, u)
 
 
-def fades(ode: ScaledEquation, pieces: tuple[MonotonePiece, ...], u: float, maximum: float) -> bool:
+def fades(ode: WearODE, pieces: tuple[Section, ...], u: float, maximum: float) -> bool:
     """Return whether wear only approaches its end `u` (mm), which it has reached within rounding.
 
     With a rigid support wear stops at a smooth peak of the load, and at a plateau. At a peak so
     sharp that the load closes the contact up to the peak itself, each cycle leaves a fraction of
-    the remaining margin; a compliant support does so at any peak, since its pressure vanishes with
-    the margin.
+    the remaining wear; a compliant support does so at any peak: its pressure vanishes with the
+    margin.
     """
     if ode.model.compliant:
         return True
     top = maximum - _slack(ode, u)
 
-    def is_sharp(piece: MonotonePiece) -> bool:
+    def is_sharp(piece: Section) -> bool:
         near = PEAK_OFFSET * (piece.end - piece.start)
         if piece.rising:
             return bool(_opening_speed(ode, piece.end - near, u) < 0.0)
@@ -119,12 +119,7 @@ def roundoff(model: Model, u: Real, U_a: Real) -> Real:
 
 
 def cycle(
-    ode: ScaledEquation,
-    pieces: tuple[MonotonePiece, ...],
-    u: float,
-    mode: Mode,
-    setting: Setting,
-    meter: Meter,
+    ode: WearODE, pieces: tuple[Section, ...], u: float, mode: Mode, setting: Setting, meter: Meter
 ) -> tuple[float, Mode]:
     """Return the wear (mm) and mode at the end of a cycle that starts with wear `u` in `mode`.
 
@@ -146,12 +141,7 @@ def cycle(
 
 
 def _next(
-    ode: ScaledEquation,
-    piece: MonotonePiece,
-    now: Moment,
-    setting: Setting,
-    meter: Meter,
-    longest: float,
+    ode: WearODE, piece: Section, now: Moment, setting: Setting, meter: Meter, longest: float
 ) -> Moment:
     """Return the state at the next change of mode, or at the end of the piece."""
     if now.mode is Mode.CLOSED:
@@ -164,12 +154,7 @@ def _next(
 
 
 def _wear(
-    ode: ScaledEquation,
-    piece: MonotonePiece,
-    now: Moment,
-    setting: Setting,
-    meter: Meter,
-    longest: float,
+    ode: WearODE, piece: Section, now: Moment, setting: Setting, meter: Meter, longest: float
 ) -> Moment:
     # A compliant support lets the pressure fall to zero at the edge of contact, so that a rising
     # load never loses it.
@@ -181,7 +166,7 @@ def _wear(
     return Moment(phase, u, Mode.SLIDING if piece.rising else Mode.OPEN)
 
 
-def _following(ode: ScaledEquation) -> Callable[[Real, Real], Real]:
+def _following(ode: WearODE) -> Callable[[Real, Real], Real]:
     """Return the excess of the wear rate at the edge of contact over the contact law's (mm/s).
 
     While it is negative, a compliant support keeps the contact at its edge.
@@ -195,7 +180,7 @@ def _following(ode: ScaledEquation) -> Callable[[Real, Real], Real]:
     return excess
 
 
-def _close(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
+def _close(ode: WearODE, piece: Section, now: Moment) -> Moment:
     """Return the state at which the load closes the open contact, or the end of the piece."""
     threshold = _threshold(ode, now.u)
     if ode.load(piece.end) <= threshold + _slack(ode, now.u):
@@ -207,7 +192,7 @@ def _close(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
     return Moment(phase, now.u, Mode.CLOSED if holds else Mode.SLIDING)
 
 
-def _slide(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
+def _slide(ode: WearODE, piece: Section, now: Moment) -> Moment:
     """Follow the edge of contact until the load closes faster than wear can open it."""
     phases = np.linspace(now.phase, piece.end, SLIDING_SAMPLES + 1)
     wear = _edge_wear(ode, phases, np.full(phases.shape, now.u))
@@ -226,7 +211,7 @@ def _slide(ode: ScaledEquation, piece: MonotonePiece, now: Moment) -> Moment:
     return Moment(phase, u, Mode.CLOSED)
 
 
-def _opening_speed(ode: ScaledEquation, phase: Real, u: Real) -> Real:
+def _opening_speed(ode: WearODE, phase: Real, u: Real) -> Real:
     """Return the speed (mm per cycle) at which closed contact at the edge opens; if negative, it
     closes."""
     U_a = ode.load(phase)
@@ -234,7 +219,7 @@ def _opening_speed(ode: ScaledEquation, phase: Real, u: Real) -> Real:
     return opening - ode.load.slope(phase)
 
 
-def _edge_wear(ode: ScaledEquation, phase: Real, u: Real) -> Real:
+def _edge_wear(ode: WearODE, phase: Real, u: Real) -> Real:
     """Return the wear at which the margin is zero, by Newton's method from the nearby wear `u`.
 
     The margin is convex in u, and linear for one rough surface.
@@ -248,11 +233,11 @@ def _edge_wear(ode: ScaledEquation, phase: Real, u: Real) -> Real:
     return u
 
 
-def _threshold(ode: ScaledEquation, u: float) -> float:
+def _threshold(ode: WearODE, u: float) -> float:
     """Return the displacement U_a (mm) that just closes the contact; the margin has slope 1."""
     return -float(ode.model.margin(u, 0.0))
 
 
-def _slack(ode: ScaledEquation, u: float) -> float:
+def _slack(ode: WearODE, u: float) -> float:
     """Return the uncertainty of the margin over the cycle (mm)."""
     return max(float(roundoff(ode.model, u, U_a)) for U_a in (ode.load.minimum, ode.load.maximum))

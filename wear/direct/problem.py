@@ -36,7 +36,7 @@ class Setting(NamedTuple):
 
 
 @dataclass(frozen=True)
-class ScaledEquation:
+class WearODE:
     """The wear equation of a model under its load, with the scale of its wear.
 
     `unit` (mm) is about the wear of the first cycle. `limit` (mm) is the wear at which the only
@@ -58,7 +58,7 @@ class ScaledEquation:
         return self.model.margin(u, self.load(phase))
 
 
-def scaled_equation(model: Model, load: Load) -> ScaledEquation:
+def scaled_ode(model: Model, load: Load) -> WearODE:
     """Return the equation of a model under a load, with its scale of wear."""
     U_a = load(_grid(load))
     rate = model.rate(0.0, U_a)
@@ -67,10 +67,10 @@ def scaled_equation(model: Model, load: Load) -> ScaledEquation:
     first_cycle = load.period * float(np.mean(rate))
     roughness = float(model.fields(0.0, load.maximum).sigma)
     unit = min(first_cycle, roughness) or roughness
-    return ScaledEquation(model, load, unit, _smooth_at(model, load, roughness))
+    return WearODE(model, load, unit, _smooth_at(model, load, roughness))
 
 
-def widest_step(ode: ScaledEquation, u: float, end: float) -> float:
+def widest_step(ode: WearODE, u: float, end: float) -> float:
     """Return the longest step, in cycles, that cannot jump over a contact pulse when the wear is
     `u`.
 

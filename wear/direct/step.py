@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Real, ScaledEquation, Setting
+from wear.direct.problem import EPS, Real, Setting, WearODE
 from wear.progress import Pace
 
 METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
@@ -60,7 +60,7 @@ class Leg(NamedTuple):
 
 
 def leg(
-    ode: ScaledEquation,
+    ode: WearODE,
     u: float,
     start: float,
     end: float,
@@ -111,7 +111,7 @@ def leg(
     return Leg(float(solver.t), u, False)
 
 
-def _opened(ode: ScaledEquation, at: Leg, slack: float) -> Leg:
+def _opened(ode: WearODE, at: Leg, slack: float) -> Leg:
     """Return the end of contact near a leg's end, by a step of Newton's method on the margin."""
     speed = ode.speed(at.phase, at.u)
     slope = ode.model.margin_slope(at.u, ode.load(at.phase))
@@ -122,13 +122,7 @@ def _opened(ode: ScaledEquation, at: Leg, slack: float) -> Leg:
 
 
 def _solver(
-    ode: ScaledEquation,
-    u: float,
-    start: float,
-    end: float,
-    setting: Setting,
-    meter: Meter,
-    longest: float,
+    ode: WearODE, u: float, start: float, end: float, setting: Setting, meter: Meter, longest: float
 ) -> Any:
     from scipy import integrate
 

@@ -275,7 +275,7 @@ def load_scene(path_or_name: str | os.PathLike[str], overrides: Sequence[str] = 
 
 
 def _meant(missing: Path) -> str:
-    """Return a guess at what the name of a missing file stands for, '' if there is none."""
+    """Return the likely meaning of the name of a missing file, '' if there is none."""
     if meant := did_you_mean(missing.name, (file.name for file in missing.parent.glob("*.toml"))):
         return f"did you mean {meant}?"
     if meant := did_you_mean(str(missing), builtin_names()):
