@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from wear import history_files
 from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
-from wear.history_files import StateTable
+from wear.history_files import States
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
 from wear.scene import Scene
@@ -207,7 +207,7 @@ class History:
         OSError
             if the file cannot be written.
         """
-        history_files.write([StateTable(self.cycles, self.columns())], path, self._attributes())
+        history_files.write([States(self.cycles, self.columns())], path, self._attributes())
 
     def _attributes(self) -> history_files.Attributes:
         return {

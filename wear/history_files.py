@@ -22,7 +22,7 @@ Attributes = Mapping[str, str]
 _NUMBER_OF_RECORDS = 4  # its place in a NetCDF-3 file, after "CDF" and the version
 
 
-class StateTable(NamedTuple):
+class States(NamedTuple):
     """A part of a result: `columns` by name, (n,) or (n, m), along whole `cycles` (n,) and, if
     given, the `phases` (m,) of each."""
 
@@ -44,7 +44,7 @@ class StateTable(NamedTuple):
 
 
 def write(
-    parts: Iterable[StateTable], path: str | os.PathLike[str], attributes: Attributes
+    parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes
 ) -> None:
     """Write a `.csv` or `.nc` (NetCDF-3) file, a part at a time, completely or not at all.
 
@@ -63,7 +63,7 @@ def write(
         writers[suffix](parts, draft, attributes)
 
 
-def _write_lines(parts: Iterable[StateTable], path: Path, attributes: Attributes) -> None:
+def _write_lines(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
     """Write comments (`# key: value`), a header and a line for each state."""
     with path.open("w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {key}: {value}\n" for key, value in attributes.items())
@@ -75,7 +75,7 @@ def _write_lines(parts: Iterable[StateTable], path: Path, attributes: Attributes
             writer.writerows(zip(*columns.values(), strict=True))
 
 
-def _write_records(parts: Iterable[StateTable], path: Path, attributes: Attributes) -> None:
+def _write_records(parts: Iterable[States], path: Path, attributes: Attributes) -> None:
     """Write variables with the record dimension `cycle` and, if there is one, `phase`.
 
     SciPy writes the header with one blank record, which the records of all parts replace; their
@@ -96,7 +96,7 @@ def _write_records(parts: Iterable[StateTable], path: Path, attributes: Attribut
         file.write(rows.to_bytes(4, "big"))
 
 
-def _write_header(part: StateTable, path: Path, attributes: Attributes) -> None:
+def _write_header(part: States, path: Path, attributes: Attributes) -> None:
     """Write the description of a result, and one record of zeros."""
     from scipy.io import netcdf_file
 

@@ -13,7 +13,7 @@ from scipy.io import netcdf_file
 from wear import direct
 from wear.binding import bind
 from wear.faults import AccuracyError, Interrupted, UsageError
-from wear.history_files import StateTable, write
+from wear.history_files import States, write
 from wear.inside import fields_inside
 from wear.load import Block, Blocks, Constant, Sine, Table
 from wear.quantities import unit_of
@@ -223,7 +223,7 @@ def test_a_history_inside_the_cycles_is_written_chunk_by_chunk(name, tmp_path):
         return fields_inside(bind(scene), scene.periodic_load, cycles, phases, chunk=chunk)
 
     (whole,) = parts(10**6)
-    states = (StateTable(part.cycles, part.columns(), part.phases) for part in parts(21))
+    states = (States(part.cycles, part.columns(), part.phases) for part in parts(21))
     write(states, tmp_path / "inside.nc", {"scene": scene.to_json()})
     with netcdf_file(tmp_path / "inside.nc", mmap=False) as file:
         assert file.dimensions == {"cycle": None, "phase": 7}
@@ -242,7 +242,7 @@ def test_a_history_inside_the_cycles_is_written_chunk_by_chunk(name, tmp_path):
 
 def test_a_history_inside_the_cycles_that_stops_leaves_nothing(tmp_path):
     def interrupted():
-        yield StateTable(np.arange(3), {"bearing_wear_mm": np.zeros((3, 1))}, np.zeros(1))
+        yield States(np.arange(3), {"bearing_wear_mm": np.zeros((3, 1))}, np.zeros(1))
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -151,16 +151,16 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
 
     from wear.binding import bind
     from wear.faults import Interrupted
-    from wear.history_files import StateTable, write
+    from wear.history_files import States, write
     from wear.inside import fields_inside
 
     worst, done = 0.0, 0
 
-    def parts() -> Iterator[StateTable]:
+    def parts() -> Iterator[States]:
         nonlocal worst, done
         at, wanted = np.arange(phases) / phases, np.array(cycles, dtype=float)
         for part in fields_inside(bind(scene), scene.load, wanted, at, rtol):
-            yield StateTable(part.cycles, part.columns(), part.phases)
+            yield States(part.cycles, part.columns(), part.phases)
             worst, done = max(worst, float(np.max(part.error))), done + len(part.cycles)
 
     attributes = {
