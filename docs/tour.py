@@ -6,7 +6,7 @@
 # From an equation of the note to the wear after a billion cycles. Each cell below was run; the
 # notebook is `docs/tour.ipynb`, written from `docs/tour.py`.
 #
-# ## An equation, and what stands behind it
+# ## An equation, and its derivation
 #
 # The note's equation (21) gives the wear per cycle once everything has settled.
 
@@ -59,7 +59,7 @@ scene.bearing
 # %% [markdown]
 # ## Any number of cycles
 #
-# One number is the state and the load repeats, so a billion cycles cost what a thousand do.
+# One number is the state and the load repeats, so a billion cycles cost as much as a thousand.
 # `error` is the estimated relative error of the bearing's wear.
 
 # %%
@@ -82,7 +82,7 @@ print(f"per cycle       {long_time.wear_per_cycle_mm:.12e} mm")
 print(f"log coefficient {long_time.log_coefficient_mm:.12e} mm")
 
 # %% [markdown]
-# What is left when the straight line is taken away keeps growing, by the same amount
+# The difference from the straight line keeps growing, by the same amount
 # for each factor of ten in the number of cycles, as soon as that number is large:
 
 # %%
@@ -95,7 +95,7 @@ steps = np.diff(left) / (long_time.log_coefficient_mm * np.log(10.0))
 print("growth per decade, as a multiple of A ln 10:")
 print(*(f"{step:.4f}" for step in steps))
 
-# %% What is left of the wear without the straight line, over the logarithm of the cycles
+# %% The wear without the straight line, over the logarithm of the cycles
 from matplotlib.figure import Figure
 
 drawn = Figure((5.0, 3.0), layout="constrained")

@@ -1,9 +1,9 @@
 """Cycle jumps and averaging, for `wear bench --peers` in a checkout.
 
 Overview
-    What is done today for many cycles: few of them are integrated, and the wear of one is
+    The usual methods for many cycles: few of them are integrated, and the wear of one is
     extrapolated over the next.  All methods here take the wear D(u) of the cycle that starts at u
-    from the package's own collocation, to rounding: what is compared is the jump alone.
+    from the package's own collocation, to rounding: the jump alone is compared.
 Key results
     fixed_jumps        u + L D(u), L a share of all cycles (Euler)
     adaptive_jumps     the same, L such that a jump wears off a share of the roughness

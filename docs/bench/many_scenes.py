@@ -1,8 +1,8 @@
-"""How many scenes a second of one core a study solves, by kind of scene, and what workers cost.
+"""Scenes that a study solves per second of one core, by kind of scene, and the cost of workers.
 
     python docs/bench/many_scenes.py
 
-Times are of the processor, so that other work of the machine does not count. What workers cost is
+Times are CPU times, so that other work of the machine does not count. The cost of workers is
 the time of all processes for handing over a chunk and its answers, without solving it.
 """
 

@@ -3,8 +3,8 @@
 # %% [markdown]
 # # A scene of one's own
 #
-# A hard bearing on a small shaft, its surface run in to 0.2 µm. What is left out (pin, support)
-# is not modelled; units stand in the names.
+# A hard bearing on a small shaft, its surface run in to 0.2 µm. Omitted tables (pin, support)
+# are not modelled; units are in the names.
 
 # %%
 import wear
