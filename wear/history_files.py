@@ -43,9 +43,7 @@ class States(NamedTuple):
         return {name: values.ravel().tolist() for name, values in zip(arrays, full, strict=True)}
 
 
-def write(
-    parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes
-) -> None:
+def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Attributes) -> None:
     """Write a `.csv` or `.nc` (NetCDF-3) file, a part at a time, completely or not at all.
 
     Raises
