@@ -33,7 +33,7 @@ from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
 
 _HEADS = frozenset(
     (
-        *(sp.Add, sp.Mul, sp.Pow, sp.Abs, sp.Max, sp.Min, sp.sign, sp.Piecewise, ExprCondPair),
+        *(sp.Add, sp.Mul, sp.Pow, sp.Abs, sp.Piecewise, ExprCondPair),
         *(sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei, sp.besseli),
         *(sp.Limit, sp.Integral, sp.Derivative, sp.Subs, sp.Lambda, sp.Tuple),
         *(sp.Eq, sp.Ne, sp.Gt, sp.Ge, sp.Lt, sp.Le, sp.And, sp.Equivalent),
@@ -49,7 +49,7 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
 _PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, Averaged: 2}
-_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.Max, sp.Min, sp.besseli, sp.sign)
+_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
 """Functions that have a value at every real argument."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
@@ -77,7 +77,7 @@ def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
     yield expr
     parts = expr.args
     if isinstance(expr, sp.Limit):
-        parts = parts[:2] if parts[2] is sp.oo else parts[:3]
+        parts = parts[:2]
     elif isinstance(expr, sp.Eq) and isinstance(parts[0], sp.Limit):
         parts = [part for part in parts if part is not sp.oo and part is not -sp.oo]
     for part in parts:
@@ -92,8 +92,8 @@ def _fault(node: sp.Basic) -> str | None:
         return _fault_of_name(node, node.name)
     if kind not in _HEADS:
         return f"{kind.__name__} is of no kind that a claim may hold"
-    if kind is sp.Limit and node != sp.Limit(*node.args[:3]):
-        return f"{node} is no limit from above"
+    if kind is sp.Limit and node.args[1:3] != (t, sp.oo):
+        return f"{node} is no limit for t -> oo"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
         return f"{node} has no {_PARTS[kind]} parts"
     if not all(variable.is_Symbol for variable in bound(node)):
@@ -105,19 +105,18 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
-    if kind is sp.Integral and any(len(limits) != 3 for limits in node.limits):
+    if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
         return f"{node} has no two ends"
-    if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _varies(node.rhs, node.lhs.args[1]):
-        return f"{node.rhs} cannot be a limit: it varies with {node.lhs.args[1]}"
+    if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
+        return f"{node.rhs} cannot be a limit: it varies"
     numbers = all(isinstance(side, sp.Expr) for side in node.args) and not node.has(sp.Lambda)
     if isinstance(node, Relational) and not numbers:
         return f"{node} is no relation between numbers"
     return None
 
 
-def _varies(value: sp.Expr, variable: sp.Symbol) -> bool:
-    clocks = CLOCKS if variable == t else {variable.name}
-    return not clocks.isdisjoint(s.name for s in value.free_symbols)
+def _clocks(expr: sp.Expr) -> set[str]:
+    return CLOCKS & {s.name for s in expr.free_symbols}
 
 
 def _held_fixed(node: sp.Basic) -> str:
@@ -134,29 +133,25 @@ def _held_fixed(node: sp.Basic) -> str:
         return ""  # the slope of a name
     found = others & CLOCKS if taken & CLOCKS else set()
     if not taken.isdisjoint(DATA):
-        found |= others - DATA
-    if taken != {"t"} and (isinstance(node, sp.Limit) or not taken.isdisjoint(DATA)):
-        found |= {str(field) for field in body.atoms(AppliedUndef)}
+        found |= others - DATA | {str(field) for field in body.atoms(AppliedUndef)}
     return ", ".join(sorted(found))
 
 
 def _leaves_domain(node: sp.Basic) -> str | None:
     """Return which variable takes a value outside of its domain, such as a time before 0."""
     for name, value in _taken(node):
-        inside = value.is_positive or isinstance(node, sp.Limit) or not name.is_positive
-        if name.is_nonnegative and not (inside and value.is_extended_nonnegative):
+        inside = value.is_positive if name.is_positive else value.is_nonnegative
+        if name.is_nonnegative and not inside:
             return f"{name} is never {value}"
     return None
 
 
 def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
     """Return the variables that take a value in a node, each with its value."""
-    if isinstance(node, AppliedUndef) and node.func.__name__ in QUANTITIES:
+    if isinstance(node, AppliedUndef) and node.func not in _FUNCTIONS:
         yield t, node.args[0]
     elif isinstance(node, sp.Integral):
         yield from ((name, end) for name, *ends in node.limits for end in ends)
-    elif isinstance(node, sp.Limit):
-        yield node.args[1:3]
 
 
 def _plain(function: type) -> bool:

@@ -159,10 +159,6 @@ class _Translator:
             self.known.append(name > 0)
         elif is_slope_of_law(expr):
             self.known.append(name < 0)
-        elif isinstance(expr, (sp.Max, sp.Min)):
-            inside = [self.number(part) for part in expr.args]
-            above = [name >= i if isinstance(expr, sp.Max) else name <= i for i in inside]
-            self.known += [*above, z3.Or(*(name == i for i in inside))]
         if isinstance(expr, (sp.Symbol, AppliedUndef)):
             signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
             self.known += [known for given, known in signs.items() if getattr(expr, given)]

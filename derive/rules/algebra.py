@@ -82,20 +82,16 @@ class Solve(Rule):
 
 @dataclass(frozen=True)
 class Multiply(Rule):
-    """``l = r`` gives ``c l = c r``; an inequality needs c > 0."""
+    """``l = r`` gives ``c l = c r``."""
 
     factor: sp.Expr
     words = "Multiply {0} by {factor}."
-    asks = ("the claim",)
+    asks = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        claim = premises[0].claim
+        given = equality(premises[0])
         require_defined(self.factor, *premises)
-        if not isinstance(claim, Equality):
-            if not isinstance(claim, Inequality):
-                raise RuleError(f"missing premise: {claim.relation} is an equality or inequality")
-            require(sp.Gt(self.factor, 0), *premises)
-        return Conclusion(claim.map(lambda side: self.factor * side))
+        return Conclusion(given.map(lambda side: self.factor * side))
 
 
 @dataclass(frozen=True)
@@ -203,32 +199,25 @@ class Consequence(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
         claim = claim_of(self.claim)
-        taken = {claim.variable} - {t} if isinstance(claim, Limit) else set()
         require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
         if isinstance(claim, Limit) and isinstance(first.claim, Limit):
-            deep = {v: sp.Dummy(**v.assumptions0) for v in taken}  # of it no premise speaks
-            near = [first.claim.expr.xreplace(deep)]
-            require_defined(claim.expr.xreplace(deep), *premises, near=near)
-        if any(taken & other.relation.free_symbols for other in others):
-            raise RuleError(f"missing premise: {self.claim} for every {claim.variable}")
-        places, sides = _inside(self.claim), _inside(first.relation)
-        same = type(claim) is type(first.claim) and [p for p, _ in places] == [p for p, _ in sides]
-        pairs = zip(places, sides, strict=False)
-        if not same or not all(is_zero(inserted(a - b, tuple(others))) for (_, a), (_, b) in pairs):
+            require_defined(claim.expr, *premises, near=[first.claim.expr])
+        (kind, *sides), (known, *given) = _sides(claim), _sides(first.claim)
+        pairs = zip(sides, given, strict=True)
+        if kind != known or not all(is_zero(inserted(a - b, tuple(others))) for a, b in pairs):
             raise RuleError(f"missing premise: {first.relation} does not become {self.claim}")
         return Conclusion(claim)
 
 
-def _inside(relation: sp.Basic) -> list[tuple[object, sp.Expr]]:
-    """Return the expressions in a relation, each after what makes its place."""
-    if isinstance(relation, (sp.And, sp.Equivalent)):
-        return [found for part in relation.args for found in _inside(part)]
-    claim = claim_of(relation)
+def _sides(claim: Claim) -> tuple[object, sp.Expr, sp.Expr]:
+    """Return the kind of a claim and the two expressions in it."""
     if isinstance(claim, Limit):
-        return [((claim.variable, claim.point), claim.expr), ("value", claim.value)]
+        return Limit, claim.expr, claim.value
     if isinstance(claim, Inequality):
-        return [(("less", claim.strict), claim.lesser), (("more", claim.strict), claim.greater)]
-    return [(type(claim), side) for side in relation.args]
+        return claim.strict, claim.lesser, claim.greater
+    if isinstance(claim, Equality):
+        return Equality, claim.lhs, claim.rhs
+    raise RuleError(f"missing premise: {claim.relation} is an equality, an inequality or a limit")
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ from ..hypotheses import Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..note.model import FIELDS, START, WORDS, law_of
 from ..reals import holds
-from ..symbols import CLOCKS, DATA, symbol, t
+from ..symbols import DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
-from .proving import facts_of, falls, integrable, smooth, told, undefined
+from .proving import facts_of, falls, smooth, told, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -31,6 +31,7 @@ _MEANT = {
 """What the model and the expansion speak of, where it may be defined, and as what."""
 _GIVEN = DATA | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
 """What has a meaning already: data, and what rules speak of or integrate over."""
+_AT_EVERY_TIME = ((t,), (symbol("tau"),))
 
 
 @dataclass(frozen=True)
@@ -84,10 +85,7 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
         require_expansion(term, *premises)
     facts = facts_of(premises)
     goals = [*undefined(whole.xreplace(terms), *premises)]
-    for clock in {v for rate in relation.atoms(sp.Derivative) for v in rate.variables}:
-        # what has a rate is continuous, or that of no field
-        goals += [goal for goal in integrable(whole, clock) if goal not in facts]
-    if implicit is None and sign is not None and not clocks(name):
+    if implicit is None and sign is not None:
         above = sign.func
         if not holds(above(inserted(value, premises), 0), facts):
             goals.append(above(value, 0, evaluate=False))
@@ -115,38 +113,36 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
 
 
 def _solvable(relation: sp.Equality) -> sp.Expr | None:
-    """Return an equation, or what tends to a limit by one, with a variable for each thing of
-    one's own, if it has a solution whatever the data and the other fields; else None.
+    """Return an equation, or what tends to a limit by one, with a variable for each field of one's
+    own, each of their rates and each name, if it has a solution whatever the data and the other
+    fields; else None.
 
-    It is linear in fields of one's own, or in names.  Either zero solves it, or one of them, of
-    any sign, has a factor that is never zero, and the equation has it at no other time.
+    It is linear in them.  Either zero solves it, or it has no limit and no rate, and one of them,
+    of any sign, has a factor that is never zero and occurs in it once.
     """
     tends = isinstance(relation.lhs, sp.Limit)
-    if tends and relation.lhs.args[1:3] != (t, sp.oo):
-        return None
     whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
-    free = () if functions(whole) or tends else whole.free_symbols
-    names = {s for s in free if s.name not in _GIVEN | CLOCKS and s not in _MEANT}
-    own = {
-        part: sp.Dummy(real=True) for part in (*rates, *fields - {d.expr for d in rates}, *names)
-    }
+    free = () if functions(whole) or clocks(whole) else whole.free_symbols
+    names = {s for s in free if s.name not in _GIVEN and s not in _MEANT}
+    parts = (*rates, *fields - {d.expr for d in rates}, *names)
+    own = {part: sp.Dummy(real=True) for part in parts}
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
-    beside = any(flat.has(d.expr.func) for d in rates)  # the solution may not last
-    if beside or any(slope.has(*own.values()) for slope in slopes.values()):
+    if any(slope.has(*own.values()) for slope in slopes.values()):
         return None
-    heads = [getattr(part, "expr", part).func for part in own]
     rests = not any(part.is_positive for part in own)
-    solved = (rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0) or any(
+    if rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0:
+        return flat
+    heads = [part.func for part in own]
+    solved = any(
         slope.is_nonzero
-        and (part.is_Symbol or heads.count(getattr(part, "expr", part).func) == 1)
-        and getattr(part, "expr", part).args in ((), (t,), (symbol("tau"),))
         and not part.is_nonnegative
+        and (part.is_Symbol or (heads.count(part.func) == 1 and part.args in _AT_EVERY_TIME))
         for part, slope in slopes.items()
     )
-    return flat if solved else None
+    return flat if solved and not tends and not rates else None
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

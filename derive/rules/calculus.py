@@ -14,20 +14,18 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..claims import Equality, Inequality, Limit
+from ..claims import Equality, Inequality
 from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..note.model import SUPPORT
-from ..symbols import DATA, symbols, t
-from .growth import expanded
-from .proving import continuous, require, require_defined, smooth, stays, undefined
+from ..symbols import symbols, t
+from .proving import continuous, require, require_defined, smooth
 from .reading import (
     clocks,
     constant,
     equality,
     field_of_rate,
     fields,
-    functions,
     inequality,
     initial_value,
     require_hypothesis,
@@ -165,29 +163,3 @@ class ChangeClock(Rule):
 
 
 change_clock = ChangeClock()
-
-
-@dataclass(frozen=True)
-class ParameterLimit(Rule):
-    """The limit of ``F(N)`` for N -> oo, by continuity in 1/N at 0; F is a function of data.
-
-    Fields, and names of other things, may depend on N.
-    """
-
-    expr: sp.Expr
-    variable: sp.Symbol
-    words = "Let {variable} tend to infinity in {expr}."
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        others = {s.name for s in self.expr.free_symbols - {self.variable}}
-        if functions(self.expr) or others - DATA:
-            raise RuleError(f"missing premise: {self.expr} is a function of data alone")
-        small = sp.Dummy("small", positive=True)
-        inside, end = self.expr.subs(self.variable, 1 / small), {small: sp.S.Zero}
-        for goal in undefined(inside, *premises):
-            if not stays(goal, expanded(goal.args[0], small)[1], end, *premises):
-                raise RuleError(f"missing premise: {goal}")
-        at_end = sp.together(inside)
-        if not continuous(at_end, end, *premises):
-            raise RuleError(f"missing premise: {self.expr} is continuous for {self.variable} -> oo")
-        return Conclusion(Limit(self.expr, self.variable, sp.oo, at_end.subs(small, 0)))

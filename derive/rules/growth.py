@@ -24,15 +24,7 @@ from ..reals import LAW, holds
 from ..symbols import t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import (
-    continuity,
-    continuous,
-    facts_of,
-    require,
-    require_defined,
-    stays,
-    undefined,
-)
+from .proving import continuity, continuous, facts_of, require, require_defined
 from .reading import (
     T,
     constant,
@@ -79,8 +71,6 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
             found.append((1, sp.Le(field, large, evaluate=False)))
         if large == field and constant(small):
             found.append((0, sp.Ge(field, small, evaluate=False)))
-    if field.is_nonnegative:
-        found.append((0, sp.Ge(field, 0, evaluate=False)))
     if {side for side, _ in found} != {0, 1}:
         raise RuleError(f"missing premise: {field.func} is bounded")
     return tuple(relation for _, relation in found)
@@ -189,10 +179,7 @@ class AtInfinity(Rule):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
-        for goal in undefined(inside, *premises):
-            _, side = expanded(goal.args[0].xreplace(plain).subs(u, deep), z)
-            if not stays(goal, side, {z: sp.S.Zero}, *premises):
-                raise RuleError(f"missing premise: {goal} as {u} -> oo")
+        require_defined(inside, *premises)
         bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
         if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")

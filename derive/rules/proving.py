@@ -105,7 +105,7 @@ def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basi
 
 def told(goal: sp.Basic) -> str:
     """Return a relation in words where it stands for a value."""
-    return f"{goal.lhs} has a value" if goal.has(sp.zoo) else str(goal)
+    return f"{goal.args[0]} has a value" if goal.has(sp.zoo) else str(goal)
 
 
 def undefined(
@@ -129,7 +129,7 @@ def _needed(
     hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t}}
     parts = tuple(part.xreplace(hidden) for part in parts)  # of these no premise speaks
     goals = [goal for part in parts for goal in _needed(part, known, facts)]
-    if isinstance(expr, sp.Integral) and [len(limit) for limit in expr.limits] == [3]:
+    if isinstance(expr, sp.Integral):
         s, low, high = expr.xreplace(hidden).limits[0]
         beyond = [sp.And(relation(s, low), relation(s, high)) for relation in (sp.Lt, sp.Gt)]
         beyond += [sp.Not(fact) for fact in _between(s, low, high, facts)]
@@ -182,15 +182,6 @@ def continuous(
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
     facts = frozenset(fact for fact in facts_of(premises) if not fact.has(*but))
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
-
-
-def stays(
-    goal: sp.Basic, side: sp.Expr, at: Mapping[sp.Basic, sp.Expr], *premises: Judgement
-) -> bool:
-    """Return whether what gives an expression a value holds near a point, where its left side is
-    another expression, and its right side 0."""
-    kept = 1 / side if isinstance(goal, sp.Ne) else sp.log(side)
-    return goal.args[1] == 0 and continuous(kept, at, *premises)
 
 
 def continuity(

@@ -76,8 +76,8 @@ def end(expr: sp.Expr, value: sp.Expr) -> sp.Equality:
     return sp.Eq(forever(expr), value)
 
 
-def tends(expr: sp.Expr, value: sp.Expr, point: sp.Expr = sp.oo) -> Judgement:
-    return given(equal(sp.Limit(expr, t, point), value))
+def tends(expr: sp.Expr, value: sp.Expr) -> Judgement:
+    return given(equal(forever(expr), value))
 
 
 START, PIN_START = eq(initial("u_c"), 0), eq(initial("u_a"), 0)

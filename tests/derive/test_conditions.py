@@ -58,10 +58,6 @@ def test_a_definition_shows_what_it_supposes() -> None:
         (shown,) = defined(name, value).conditions
         assert shown.relation == condition
     assert defined(b_0, 1 / f_c, assume(ROUGHENING)).conditions == (ROUGHENING,)
-    phased = sp.Function("v", real=True)(tau)
-    whose = sp.Eq(sp.Derivative(phased, tau), U_a.subs(t, T * tau), evaluate=False)
-    (shown,) = assume(Hypothesis(whose, Kind.DEFINITION)).conditions
-    assert shown == CONTINUOUS
 
 
 def test_names_are_shown_with_what_they_mean() -> None:

@@ -27,6 +27,7 @@ theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
 HIDDEN, ALIKE = sp.Dummy("x", real=True), sp.Dummy("x", real=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
+WOBBLE = sp.Function("wobble", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
 
@@ -85,7 +86,11 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (h_0 + Between(), "of no kind"),
     (Positive("f_c", real=True), "of no kind"),
     (with_a_slope_of_its_own(), "of no kind"),
-    (sp.Limit(sp.sign(theta), theta, 0, "-"), "no limit from above"),
+    (sp.Limit(WIGGLE, t, 0), "no limit for t"),  # nothing of the end follows
+    (sp.Limit(f_c / k, k, sp.oo), "no limit for t"),
+    (sp.sign(theta), "of no kind"),
+    (sp.Integral(x * U_a, (t, 0, T), (x, 0, 1)), "two ends"),  # U_a jumps at every time
+    (WIGGLE.subs(t, t - T), "t is never"),
     (sp.Symbol("f_c", positive=True), "not the f_c of the vocabulary"),
     (sp.Function("u_c", positive=True)(t), "not the u_c of the vocabulary"),
     (sp.Symbol("x") ** 2, "no real quantity"),  # i
@@ -96,7 +101,6 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (x + sp.Symbol("x", positive=True), "one name"),
     (sp.Symbol("x1", real=True) + sp.Symbol("x_1", real=True), "one name"),
     (sp.Integral(x + HIDDEN, (HIDDEN, 0, 1)), "two variables of one name"),  # looks like 2 x
-    (sp.Integral(HIDDEN * ALIKE, (HIDDEN, 0, 1), (ALIKE, 0, 2)), "of one name"),  # like x^2
     (sp.Lambda(x, 2 * x), "no relation between numbers"),
     (FirstZero(q), "no 2 parts"),
     (sp.Symbol("pi", positive=True), "no real quantity"),
@@ -113,7 +117,6 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
     (sp.Function("u_c", real=True)(t, x), "of no kind"),
-    (sp.Limit(u_c / k, k, sp.oo), "fixed"),
     (sp.Derivative(u_c, f_c), "fixed"),
     (sp.Derivative(h, T), "fixed"),  # one period later, T is captured
     (sp.Derivative(h, u_c), "by no variable"),
@@ -137,7 +140,6 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     sp.tanh(y),
     sp.log(1 + kappa),
     sp.Rational(1, 10**20),
-    sp.Limit(sp.sign(theta), theta, 0),
     sp.Integral(f_c * h_0, (f_c, 0, 1)),
     sp.Derivative(b_0, f_c),
     sp.Derivative(PHASED, tau),
@@ -197,12 +199,16 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(b_0, sp.Integral(x * u_c, (x, 0, 1))), "is constant"),  # u_c/2
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
-    (Kind.DEFINITION, equal(sp.Limit(WIGGLE, t, 0), 1), "is a new name"),
     (Kind.MODEL, contact(ContactLaw("", kinked(r**4 + r**2), sp.S.Zero, "")), "smooth"),
     (Kind.DEFINITION, equal(kappa * f_c, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(kappa + p_max, 0), "is a new name"),
     (Kind.DEFINITION, equal(SWAYS, (1 + WIGGLE**2) / T), "is a new name"),  # tan(t/T)
+    (Kind.DEFINITION, equal(SWAYS, C), "is a new name"),  # of a rate no solution is asked for
+    (Kind.DEFINITION, equal(sp.Derivative(POSITIVE, t), -C), "is a new name"),
+    (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1), "is a new name"),
+    (Kind.DEFINITION, equal(T * b_0, t), "is a new name"),  # b_0 is constant
+    (Kind.DEFINITION, equal(2 * b_0, h_0 * tau), "is a new name"),
     (Kind.DEFINITION, equal(N, t / (2 * T)), "N is t/T"),  # u_c = C t
     (Kind.DEFINITION, equal(symbol("omega"), C / T), "is a new name"),  # it is pi n/30
     (Kind.DEFINITION, equal(symbol("f_cc"), 0), "f_cc is f_c"),  # the roughness grows
@@ -223,7 +229,7 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(f_c**2 + b_0, 0)),
     (Kind.DEFINITION, equal(b_0, sp.exp(f_c))),
     (Kind.DEFINITION, equal(WIGGLE * q, -f_c)),
-    (Kind.DEFINITION, equal(forever(WIGGLE - u_c), 1)),
+    (Kind.DEFINITION, equal(forever(WIGGLE - WOBBLE), 0)),
     (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
     (Kind.MODEL, contact(ContactLaw("", kinked(1 + r**2), sp.S.Zero, ""))),
@@ -231,7 +237,7 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(symbol("f_cc"), f_c)),
     (Kind.DEFINITION, equal(f_c * WIGGLE, 0)),
     (Kind.DEFINITION, equal(kappa + b_0, 0)),
-    (Kind.DEFINITION, equal(SWAYS, (1 + u_c**2) / T)),
+    (Kind.DEFINITION, equal(SWAYS, sp.Derivative(WIGGLE.subs(t, t + T), t))),
 )
 
 

@@ -106,7 +106,6 @@ rules = st.one_of(
     st.builds(inequalities.Arithmetic, relations),
     st.builds(inequalities.Monotone, functions),
     st.builds(inequalities.Lipschitz, functions, expressions, expressions, expressions),
-    st.builds(calculus.ParameterLimit, expressions, st.sampled_from([f_c, b_0, h_0])),
     st.builds(data.Differentiated, equations, st.sampled_from([f_c, h_0])),
     st.builds(data.OneSign, st.sampled_from([f_c, h_0, C])),
     st.builds(growth.Diverges, expressions),

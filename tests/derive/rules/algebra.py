@@ -22,7 +22,7 @@ from derive.rules.algebra import (
     substitute,
 )
 from derive.rules.assumption import assume, defined
-from derive.rules.calculus import RIGID, SPRINGS, ParameterLimit, differentiate
+from derive.rules.calculus import RIGID, SPRINGS, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever, later, one_period_later
 from derive.rules.solutions import FirstRoot
@@ -71,7 +71,6 @@ FALLING = lt(f_c, 0)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
-FALLS = ParameterLimit(f_c / M, M)()
 MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
 SOLVED = Solve(u_a)(eq(f_c * u_a, h_0), ROUGHENS)
 SPECIAL = substitute(eq(h, f_c * u_a), AT_ONE)
@@ -113,7 +112,7 @@ AS_WORN = Insert(equal(h, h_0))(eq(h, h_0), called(STARTS[1], Kind.INITIAL), SMO
 
 FAMILIES = (
     Family(substitute, (
-        (SIDES, eq(u_a, h_0)), (integral(b_0), eq(b_0, x_inf)), (FALLS, eq(f_c, b_0)),
+        (SIDES, eq(u_a, h_0)), (integral(b_0), eq(b_0, x_inf)),
         (sloped(), eq(h_0, b_0)), (RATE, eq(u_c, u_a)), (MEAN_LOAD, eq(U_a, h_0 * G)),
     ), {
         "u_a >= h_0 is no equation": ("is no equality", SIDES, ge(u_a, h_0)),  # 2 >= 1
@@ -123,7 +122,6 @@ FAMILIES = (
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
         # theta = 1: G = 3, not 3/2
         "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
-        "capture by a limit": ("every value", FALLS, eq(f_c, M)),  # lim f_c/N = 0, lim N/N = 1
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
         "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
@@ -144,13 +142,12 @@ FAMILIES = (
         "solved across a jump": ("linear in x_inf", x_inf, eq(KINKED, theta)),  # x_inf = -1/2
     }),
     Family(lambda factor, claim=SIDES, *known: Multiply(factor)(claim, *known), (
-        (q, ge(u_a, h_0)), sp.Integral(1 / q, (q, 1, 2)), (forever(G), SIDES, tends(G, theta)),
+        q, sp.Integral(1 / q, (q, 1, 2)), (forever(G), SIDES, tends(G, theta)),
         u_stop, rate("u_c"), (sp.Integral(x / theta, (x, 1, 2)), SIDES, given(theta > 0)),
         sp.log(1 + q), (sp.Piecewise((1, f_c > 0)), SIDES, ROUGHENS), (1 / f_c, SIDES, ROUGHENS),
     ), {
-        "neither equality nor inequality": ("is an equality or", q, ne(h, u_a)),
-        "an inequality times either sign": ("f_c > 0", f_c, ge(u_a, h_0)),  # f_c = -1
-        "a factor that is no limit": ("has a value", sp.Limit(sp.sin(y), y, sp.oo)),
+        "an inequality times either sign": ("is no equality", f_c, ge(u_a, h_0)),  # f_c = -1
+        "a factor that is no limit": ("has a value", forever(sp.sin(t / T))),
         "a primitive": ("two ends", sp.Integral(x, x)),
         "a factor that is no zero": ("has a value", FirstZero(y**2 + 1, y)),
         "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
@@ -203,14 +200,12 @@ FAMILIES = (
     }),
     Family(lambda claim, *known: Consequence(claim)(*known), (
         (sp.Le(-G, h_0), le(-G, L), eq(L, h_0)), (sp.Eq(rate("u_c") * T / q, C * T / q), SPEED),
-        (equal(sp.Limit(h_0 / M, M, sp.oo), 0), FALLS, eq(f_c, h_0)),
-        (equal(sp.Limit(T / M, M, sp.oo), 0), ParameterLimit(b / M, M)(), eq(T, b)),
         (end(G + GAP, theta), tends(G, theta), APART),
         (end((h**2 - u_a**2) / (h - u_a), q), tends(h + u_a, q), ne(h, u_a)),  # h = u_a
         (end(2 * h_0 / u_c / 2, 0), tends(h_0 / u_c, sp.S.Zero)),
     ), {
         # u_a = 2, L = 1
-        "more parts than the premise": ("does not become", sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)),
+        "more parts than the premise": ("is an equality", sp.And(sp.Le(-G, h_0), sp.Lt(u_a, L)),
             le(-G, L), eq(L, h_0)),
         # theta = 0
         "an angle that is the scaled rate": ("does not become", sp.Eq(theta, C * T / q), SPEED),
@@ -219,12 +214,6 @@ FAMILIES = (
             end(G + (dU + 1) * (dU - 1) - dU**2, q), tends(G, q + 1)),
         "another form of a limit, with 0/0": ("Ne", end(G + GAP, theta), tends(G, theta)),
         "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
-        # lim M/M = 1
-        "capture by the limit of another form": ("for every M",
-            equal(sp.Limit(sp.S.One, M, sp.oo), 0), FALLS, eq(f_c, M)),
-        # b_0 = sigma_c0/f_c - h_0
-        "a name held fixed while a datum grows": ("b_0 fixed",
-            equal(sp.Limit(b_0 / h_0, h_0, sp.oo), 0), ParameterLimit(L / h_0, h_0)(), eq(b_0, L)),
     }),
     Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
         (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),
@@ -357,10 +346,10 @@ FAMILIES = (
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (
-        equal(rate("G"), u_c / T), equal(rate("G"), 0), equal(G * q, -f_c),
-        equal(rate("G"), U_a / T),
+        equal(rate("G"), 0), equal(G * q, -f_c),
     ), {
         # a square load
-        "what has the rate of the load": ("has a value", equal(rate("G"), rate("U_a"))),
+        "what has the rate of the load": ("a new name", equal(rate("G"), rate("U_a"))),
+        "what has a rate that jumps": ("a new name", equal(rate("G"), U_a / T)),
     }),
 )  # fmt: skip

@@ -194,7 +194,7 @@ FAMILIES = (
         # h = -1/10: half as many
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(
-                eq(N, L**2 * (3 + sp.sign(h)) / h**2))),
+                eq(N, L**2 * (3 + h / sp.Abs(h)) / h**2))),
         "half an order of a drift": ("of order 3/2",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
         # phi may turn like |r - 1|^(3/2)

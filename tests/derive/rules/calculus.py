@@ -13,7 +13,6 @@ from derive.rules.algebra import Insert, Multiply, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import (
     SPRINGS,
-    ParameterLimit,
     change_clock,
     differentiate,
     grows,
@@ -198,17 +197,6 @@ FAMILIES = (
         "another clock": ("t = T tau", SCALED, defined(N, t / T)),
         "an inequality in periods": ("no equality", ge(u_c, u_a)),
     }),
-    Family(lambda expr, variable, *known: ParameterLimit(expr, variable)(*known), (
-        (sigma_c0 * f_c * h_0 / (1 + h_0), h_0),
-        (f_c * N / (1 + f_c * N), N, ROUGHENS),  # f_c = 0
-        (h_0 ** (1 / N), N, gt(h_0, 0)),  # h_0 = 0
-    ), {
-        # f_c = 0
-        "a quotient by what may vanish": ("Ne", (h_0 / f_c + 1) * f_c / h_0, h_0),
-        "a field held fixed": ("data alone", u_c * h_0 / (1 + h_0), h_0),  # u_c depends on h_0
-        "a name held fixed": ("data alone", b_0 / h_0, h_0),  # b_0 = sigma_c0/f_c - h_0
-        "h(0) held fixed": ("data alone", initial("h") / h_0, h_0),  # h(0) = h_0
-    }),
     # ---- data
     Family(lambda claim, known=GROWING, datum=f_c,
         *facts: Differentiated(claim, datum)(known, *facts), (
@@ -267,7 +255,7 @@ FAMILIES = (
     # ---- inequalities
     Family(lambda claim, *known: Arithmetic(claim)(*known), (
         (sp.Ne(f_c, 0), eq(G, 1 / f_c)), (sp.Gt(theta, 0), eq(G, sp.log(theta))),
-        (sp.Gt(h, u_a), ge(h - q, u_a)), (sp.Lt(u_a, q), lt(sp.Max(u_a, h), q)),
+        (sp.Gt(h, u_a), ge(h - q, u_a)),
         (sp.Ge(rate("U_a") ** 2, 0), SMOOTH), (sp.Gt(U_max, 0), gt(U_max, h_0)),
         (alike(sp.Le(u_a, h_0), sp.Le(u_a - h_0, 0)),),
         (sp.Gt(f_c, -1), ROUGHENS), (sp.Lt(p, 10**6 * p_max), lt(p, p_max)),
@@ -279,7 +267,6 @@ FAMILIES = (
         "a branch that is not taken": ("Ne", sp.Ne(f_c, 0), eq(G, WHOLE)),  # f_c = 0, G = 0
         "an integrand": ("theta > 0", sp.Gt(theta, 0), integral(sp.log(theta), 1)),  # theta = -1
         "strictness in a limit": (r"h\(t\) > u_a", sp.Gt(h, u_a), gt(h + q / M, u_a)),  # h = u_a
-        "a part of an or": ("u_a", sp.Lt(u_a, q), lt(sp.Min(u_a, h), q)),  # u_a = 2 q
         "the square of a rate": ("Derivative", sp.Ge(rate("U_a") ** 2, 0)),  # a square load
     }),
     Family(lambda body, known=IN_FALLING_ORDER: Monotone(sp.Lambda(y, body))(known), (
