@@ -116,7 +116,7 @@ def _fault(node: sp.Basic) -> str | None:
 
 
 def _clocks(expr: sp.Expr) -> set[str]:
-    return CLOCKS & {s.name for s in expr.free_symbols}
+    return {s.name for s in expr.free_symbols} & CLOCKS
 
 
 def _held_fixed(node: sp.Basic) -> str:

@@ -158,7 +158,8 @@ FAMILIES = (
     }),
     Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.S.Zero + value))(*known), (
         (du / u_c, 0, tends(du, C), DEEP),
-        (G / (h_0 / u_c + G), 1, tends(G, theta), DEEP, ne(theta, 0), ne(h_0 / u_c + G, 0)), (sp.exp(-G), 1, tends(G, 0)),
+        (G / (h_0 / u_c + G), 1, tends(G, theta), DEEP, ne(theta, 0), ne(h_0 / u_c + G, 0)),
+        (sp.exp(-G), 1, tends(G, 0)),
         (later(G), theta, tends(G, theta)),
         (later(G + q * sp.tanh(u_c)), theta, tends(G + q * sp.tanh(u_c), theta)),
         (G + NOTHING, theta, tends(G, theta), eq(b_0, 0), APART),
