@@ -369,7 +369,7 @@ def test_where_increments_are_a_series_their_derivatives_are_one_too(
     cycles, taken = [300, 9000, 1e8], []
     linearise = tangent.map_derivatives
 
-    def counted(cycle: Any, equation: Any, starts: FloatArray) -> tangent.MapDerivatives:
+    def counted(cycle: Any, equation: Any, starts: FloatArray) -> tangent.CycleDerivatives:
         taken.append(len(starts))
         return linearise(cycle, equation, starts)
 

@@ -47,7 +47,7 @@ class PhaseInterval(NamedTuple):
     expected: FloatArray
 
 
-class Contact(NamedTuple):
+class ContactMode(NamedTuple):
     """Contact of one kind in some `cycles` (k,): by the law, or held at its edge by a compliant
     support. It ends where the margin comes to a `level` (k,), mm, by falling where `direction`
     (k,) is 1 and by rising where it is -1; where that is 0 it lasts."""
@@ -57,11 +57,11 @@ class Contact(NamedTuple):
     level: FloatArray
     direction: FloatArray
 
-    def take(self, which: BoolArray | IntArray) -> Contact:
+    def take(self, which: BoolArray | IntArray) -> ContactMode:
         """Return the contact in some of the cycles."""
         if which.dtype == bool and which.all():
             return self
-        return Contact(
+        return ContactMode(
             self.cycles.take(which), self.by_law, self.level[which], self.direction[which]
         )
 
@@ -155,7 +155,7 @@ class ContactResult(NamedTuple):
 
 
 def wear_in_contact(
-    contact: Contact,
+    contact: ContactMode,
     rule: Gauss,
     tolerance: float,
     u: FloatArray,
@@ -210,7 +210,7 @@ def wear_in_contact(
     return ContactResult(added, error, length, sound, evaluations, tuple(parts))
 
 
-class _Step(NamedTuple):
+class _ContactStep(NamedTuple):
     """A step of contact: the wear `added` (k,), mm, over a `length` (k,); at the nodes (m, k) the
     increment since the start, `inside`, and the `rate`, mm per cycle; the rounding error of the
     rate, `noise` (k,); the `stiffness` (k,): the length times the largest slope of the rate; the
@@ -228,7 +228,7 @@ class _Step(NamedTuple):
     evaluations: int
 
 
-def _step_error(rule: Gauss, part: _Step, before: FloatArray) -> FloatArray:
+def _step_error(rule: Gauss, part: _ContactStep, before: FloatArray) -> FloatArray:
     """Return the truncation error of each step (k,), relative to the increment of the cycle up to
     its end, of which `before` (k,) mm came before the step.
 
@@ -250,8 +250,8 @@ def _step_error(rule: Gauss, part: _Step, before: FloatArray) -> FloatArray:
 
 
 def _step(
-    contact: Contact, rule: Gauss, tolerance: float, u: FloatArray, over: PhaseInterval
-) -> _Step:
+    contact: ContactMode, rule: Gauss, tolerance: float, u: FloatArray, over: PhaseInterval
+) -> _ContactStep:
     """Take a step by Newton's method, until another iteration would change the wear by a small part
     of the `tolerance`. Where contact ends at a level, its end is found along with the wear, by
     tangents: Radau's last node is the end."""
@@ -297,7 +297,7 @@ def _step(
         last = correction
         if ends:
             U_a = contact.cycles.load(over.begin + length * nodes)
-    return _Step(added, length, inside, rate, noise, stiffness, error, done, evaluations)
+    return _ContactStep(added, length, inside, rate, noise, stiffness, error, done, evaluations)
 
 
 def _newton(rule: Gauss, slope: FloatArray, residual: FloatArray) -> FloatArray:

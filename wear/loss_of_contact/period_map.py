@@ -27,7 +27,7 @@ import numpy as np
 
 from wear.load import Load
 from wear.loss_of_contact.contact import (
-    Contact,
+    ContactMode,
     ContactPart,
     ContactResult,
     PhaseInterval,
@@ -292,7 +292,7 @@ class _PieceSolver:
         direction: FloatArray,
         expected: FloatArray,
     ) -> ContactResult:
-        contact = Contact(self.cycles, by_law, level, direction).take(who)
+        contact = ContactMode(self.cycles, by_law, level, direction).take(who)
         at = self.at[who]
         over = PhaseInterval(at, self.piece.end[who] - at, expected[who] - at)
         start, before = ((x + self.added)[who] for x in (self.u, self.before))
