@@ -25,7 +25,7 @@ from wear.faults import Faults
 from wear.load import Blocks, Constant, Load, Loading, Table
 from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.count import CountRequest, count_scenes
-from wear.loss_of_contact.switching import edge_of_contact
+from wear.loss_of_contact.edge import edge_of_contact, edges_of_contact
 from wear.model import Model
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.orbit.iterates import Iterates
@@ -306,8 +306,9 @@ Answer = tuple[FloatArray, FloatArray]
 def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
     """Return the orbit of scenes of one variant, so many cycles of each."""
     if scenes[0].contact.ends_at_3_sigma:
-        bound = [(bind(scene), scene.periodic_load) for scene in scenes]
-        requests = [CountRequest(*pair, edge_of_contact(*pair), cycles) for pair in bound]
+        models, loads = [bind(scene) for scene in scenes], [scene.periodic_load for scene in scenes]
+        each = zip(models, loads, edges_of_contact(models, loads), strict=True)
+        requests = [CountRequest(*own, cycles) for own in each]
         return joined([found.orbit for found in count_scenes(requests, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)

@@ -24,8 +24,9 @@ from wear.faults import Faults, UsageError
 from wear.load import Constant
 from wear.load.spans import span
 from wear.loss_of_contact.count import CountRequest, count_scenes
+from wear.loss_of_contact.edge import edges_of_contact
 from wear.loss_of_contact.period_map import margin_roundoff
-from wear.loss_of_contact.switching import Edge, edge_of_contact
+from wear.loss_of_contact.switching import Edge
 from wear.loss_of_contact.tangent import stage_tangents
 from wear.numerics.gauss import BoolArray, FloatArray
 from wear.orbit.segments import orbit
@@ -148,7 +149,7 @@ def _of_one_variant(
         wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
         if scenes[0].contact.ends_at_3_sigma:
             each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
-            edges = [edge_of_contact(own.model, own.loads[0]) for own in each]
+            edges = edges_of_contact([own.model for own in each], [own.loads[0] for own in each])
             if done == 0:
                 grazes[:] = [_grazes(own, edge) for own, edge in zip(each, edges, strict=True)]
             begins = zip(wanted[:, -1], start, missed, strict=True)

@@ -15,9 +15,9 @@ from tests.wear.test_cycle_count import between
 from wear import cycles as count
 from wear.binding import bind
 from wear.load import Harmonics, Load, Sine, Table
+from wear.loss_of_contact.edge import edge_of_contact, turning_points
 from wear.loss_of_contact.grazing import grazing_wears
 from wear.loss_of_contact.period_map import switched_period_map
-from wear.loss_of_contact.switching import edge_of_contact, turning_points
 from wear.scene import Scene, load_scene
 
 UNEVEN = {  # rise slowly, then fast, and slowly again

@@ -16,7 +16,8 @@ from wear import cycles as count
 from wear import direct
 from wear.binding import bind
 from wear.load import Harmonics, Sine, Table
-from wear.loss_of_contact.switching import edge_of_contact, phase_of
+from wear.loss_of_contact.edge import edge_of_contact
+from wear.loss_of_contact.switching import phase_of
 from wear.scene import load_scene
 
 STEPS = Table((0.0, 0.25, 0.5, 0.75, 1.0), (1.2e-6, 1.2e-6, 2.25e-5, 2.25e-5, 1.2e-6))

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Load, Sine, Table
 from wear.load.spans import most_cycles, span
-from wear.loss_of_contact.switching import turning_points
+from wear.loss_of_contact.edge import turning_points
 
 EPS = np.finfo(float).eps
 SAW = Table((0.0, 0.5, 1.5, 2.0), (1e-4, 5e-4, -3e-4, 1e-4))

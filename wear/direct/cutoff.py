@@ -25,7 +25,7 @@ import numpy as np
 from wear.direct.problem import EPS, Real, Setting, WearODE, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
 from wear.load import Load
-from wear.loss_of_contact.switching import turning_points
+from wear.loss_of_contact.edge import turning_points
 from wear.model import Model
 
 TINY = float(np.finfo(float).tiny)

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.load import Load
+from wear.loss_of_contact.edge import edge_of_contact
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece, edge_of_contact
+from wear.loss_of_contact.switching import PIECE_SAMPLES, Piece
 from wear.model import Model
 from wear.numerics.gauss import FloatArray
 from wear.orbit.dense_output import PhaseIncrements

@@ -178,7 +178,10 @@ def switched_period_map(
     number = np.array([len(edge.pieces.closes) for edge in edges])
     tops = np.full((len(edges), np.max(number)), -np.inf)
     tops[np.arange(tops.shape[1]) < number[:, None]] = pieces.top
-    first, cycles = np.cumsum([0, *number.tolist()]), cycles_of(models, loads, edges)
+    first, cycles = (
+        np.cumsum([0, *number.tolist()]),
+        cycles_of(models, loads, [edge.levels for edge in edges]),
+    )
     return SwitchedPeriodMap(cycles, pieces, first, tops, radau(nodes), tolerance)
 
 

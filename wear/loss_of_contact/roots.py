@@ -7,17 +7,18 @@ from collections.abc import Callable
 import numpy as np
 
 from wear.model import Model
-from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF
+from wear.numerics.gauss import FloatArray, IntArray
 
 SECTIONS = 64  # of an interval at once
 BISECTIONS = 9  # into so many sections, to roundoff
 FEW_BISECTIONS = 5  # to roundoff of a cycle
 FEWER_BISECTIONS = 3  # for the least value of a function
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
+ACCURATE = 1e-8  # relative step of Newton's method: the next would be its square
 PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding
 MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
 Function = Callable[[FloatArray], FloatArray]
+Bound = FloatArray | float
 
 
 def bracketed(
@@ -35,27 +36,27 @@ def bracketed(
     return low, high
 
 
-def nearest_to_zero(function: Function, x: FloatArray) -> FloatArray:
-    """Return where a function comes nearest to zero between samples at `x` of one sign, if it may
-    come there."""
-    value = function(x)
+def nearest_to_zero(
+    function: Callable[[IntArray], Function], x: FloatArray, value: FloatArray, of: IntArray
+) -> tuple[FloatArray, IntArray]:
+    """Return where functions come nearest to zero between samples at `x` (n,), with a `value` (n,)
+    of one sign, if they may come there; and the number of each function: the samples are those of
+    the functions `of` (n,), one after the other."""
     sign, size = np.sign(value), np.abs(value)
-    nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:])
+    nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:]) & (of[:-2] == of[2:])
     nearest &= (sign[1:-1] == sign[:-2]) & (sign[1:-1] == sign[2:])
     at = 1 + np.flatnonzero(nearest)
     before, middle, after = size[at - 1], size[at], size[at + 1]
     least = middle - (after - before) ** 2 / (8 * (after - 2 * middle + before))  # a parabola's
     at = at[least < MAY_VANISH * middle]
-    low, high, sign = x[at - 1], x[at + 1], sign[at]
-    inner = np.arange(SECTIONS + 1)[:, None] / SECTIONS
+    low, high, sign, row = x[at - 1], x[at + 1], sign[at], np.arange(len(at))
+    inner, some = np.arange(SECTIONS + 1)[:, None] / SECTIONS, function(of[at])
     for _ in range(FEWER_BISECTIONS if len(at) else 0):
         points = low + (high - low) * inner
-        lowest, row = np.argmin(sign * function(points), axis=0), np.arange(len(at))
-        low, high = (
-            points[np.maximum(lowest - 1, 0), row],
-            points[np.minimum(lowest + 1, SECTIONS), row],
-        )
-    return np.asarray((low + high) / 2)
+        lowest = np.argmin(sign * some(points), axis=0)
+        low = points[np.maximum(lowest - 1, 0), row]
+        high = points[np.minimum(lowest + 1, SECTIONS), row]
+    return (low + high) / 2, of[at]
 
 
 def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
@@ -66,7 +67,7 @@ def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
 
 
 def wear_at(
-    model: Model, displacement: FloatArray, guess: FloatArray, least: float, most: float
+    model: Model, displacement: FloatArray, guess: FloatArray, least: Bound, most: Bound
 ) -> FloatArray:
     """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
     nearest of `least` and `most` if there is none between.
@@ -79,7 +80,7 @@ def wear_at(
         corrected = np.clip(wear - model.margin(wear, displacement) / slope, least, most)
         change = np.abs(corrected - wear)
         wear = corrected
-        moves = change > 2 * ROUNDOFF * np.abs(wear)
+        moves = change > ACCURATE * np.abs(wear)
         if not np.any(moves & ((change < last) | (iteration < PATIENCE))):
             break
         last = change

@@ -1,11 +1,9 @@
-"""The edge of contact of a rigid support with cutoff: where the load begins and ends contact.
+"""Cycles with loss of contact, and their pieces, on which contact reaches its edge one way.
 
-The contact ends where h = 3 sigma: the `margin` 3 sigma - h = U_a - B(u) vanishes. There, closed
-contact would change the margin at the rate q = U_a' - B'(u) r, a function of the phase alone, since
-u = B^-1(U_a). The cycle is cut where the load turns or has a kink, and where q rises through zero.
-On a piece, then, contact reaches its edge in one direction only, and the smooth solution that is
-continued beyond the edge does not come back: the sign of the margin at the end of a piece, or of
-any part of it, tells for certain whether contact has been lost on it.
+Contact ends where h = 3 sigma: the `margin` 3 sigma - h = U_a - B(u) vanishes. On a piece contact
+reaches its edge in one direction only, and the smooth solution that is continued beyond the edge
+does not come back: the sign of the margin at the end of a piece, or of any part of it, shows
+whether contact has been lost on it. `wear.loss_of_contact.edge` finds the pieces.
 """
 
 from __future__ import annotations
@@ -16,25 +14,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wear.load import Constant, Harmonics, Load, Sine, Table, Waves, waves
-from wear.loss_of_contact.roots import (
-    FEW_BISECTIONS,
-    Function,
-    bracketed,
-    displacement_at,
-    nearest_to_zero,
-    wear_at,
-)
 from wear.model import Model, stacked
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF
 
-SAMPLES = 512  # of a cycle, to look for where q rises through zero
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
-NEARLY = 1e-13  # of a stretch: how near to its ends one looks
-LOOKS = np.array([[NEARLY], [0.1], [0.5], [0.9], [1 - NEARLY]])  # at the slope between two peaks
+NEARLY = 1e-13  # of a part of the cycle: the distance of a sample from its ends
 PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
 PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
-FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
 Numbers = Any  # a float, or an array of floats
 
 
@@ -72,20 +59,23 @@ class Piece(NamedTuple):
         return np.asarray(np.maximum(self.heights[0], self.heights[-1]))
 
 
-class Edge(NamedTuple):
-    """The edge of contact of a model under a load, and the cycle cut into `pieces`.
+class Levels(NamedTuple):
+    """Levels of a model: the margin falls with wear up to the wear `turning_wear` (mm), and rises
+    beyond; under displacements above `highest` (mm) contact has no edge. A compliant support holds
+    the contact at its edge until the margin is as large as `held` (mm), zero for a rigid one."""
 
-    The margin falls with wear up to the wear `turning_wear` (mm), and rises beyond; under
-    displacements above `highest` (mm) contact has no edge. A compliant support holds the contact at
-    its edge until the margin is as large as `held` (mm), zero for a rigid one. Where the
-    displacement that just makes contact is one of those `grazing` (mm), the one-cycle map has a
-    kink.
-    """
-
-    pieces: Piece
     turning_wear: float
     highest: float
     held: float
+
+
+class Edge(NamedTuple):
+    """The edge of contact of a model under a load: the cycle cut into `pieces`, and the `levels` of
+    the model. Where the displacement that just makes contact is one of those `grazing` (mm), with
+    so many pieces `before` (k,), the period map has a kink."""
+
+    pieces: Piece
+    levels: Levels
     grazing: FloatArray
     before: IntArray
 
@@ -156,18 +146,11 @@ class Lines(NamedTuple):
         return np.asarray(self.rise + 0.0 * phase)
 
 
-def cycles_of(models: Sequence[Model], loads: Sequence[Load], edges: Sequence[Edge]) -> Cycles:
+def cycles_of(models: Sequence[Model], loads: Sequence[Load], levels: Sequence[Levels]) -> Cycles:
     """Return a cycle of each of some scenes of one variant."""
     numbers = [
-        (
-            load.period,
-            load.maximum,
-            max(abs(load.minimum), abs(load.maximum)),
-            edge.turning_wear,
-            edge.highest,
-            edge.held,
-        )
-        for load, edge in zip(loads, edges, strict=True)
+        (load.period, load.maximum, max(abs(load.minimum), abs(load.maximum)), *level)
+        for load, level in zip(loads, levels, strict=True)
     ]
     if len(models) == 1:
         return Cycles(models[0], displacements(loads), *map(float, numbers[0]))
@@ -180,103 +163,6 @@ def displacements(loads: Sequence[Load]) -> Load | Waves:
     first, *others = loads
     of_waves = isinstance(first, Harmonics) or (isinstance(first, Sine) and others)
     return waves(loads) if of_waves else first
-
-
-def edge_of_contact(model: Model, load: Load) -> Edge:
-    """Return the edge of contact of a model with cutoff."""
-    turning_wear, held = _crest(model), float(model.held_margin)
-    turns, acting = turning_points(load), displacements([load])
-    highest = (
-        float(displacement_at(model, np.array(turning_wear)))
-        if np.isfinite(turning_wear)
-        else np.inf
-    )
-    low, high = turns[:-1], turns[1:]
-    top = highest + held
-    over = (acting(low) < top) != (acting(high) < top)
-    appears = bracketed(lambda phase: acting(phase) - top, low[over], high[over])[1]
-    closing_speed = _closing_speed(model, acting, load.period, turning_wear, held)
-    closings = _closings(closing_speed, turns, model.compliant)
-    cuts = np.unique(np.concatenate([turns, appears, closings]))
-    inside = (1 - np.cos(np.pi * np.arange(PIECE_SAMPLES + 1) / PIECE_SAMPLES)) / 2
-    phases = cuts[:-1, None] + np.diff(cuts)[:, None] * inside
-    closes = closing_speed(phases[:, PIECE_SAMPLES // 2]) >= 0.0
-    pieces = Piece(phases.T, acting(phases.T), closes)
-    # At the bend wear continues: contact turns not with the load but where its closing speed does.
-    sharp = turns[np.isin(turns, [0.0, *load.kinks, 1.0])]
-    bending = np.concatenate([sharp, appears, closings])
-    heights = np.concatenate([acting(bending) - held, acting(turns)])
-    grazing, first = np.unique(heights, return_index=True)
-    before = np.searchsorted(cuts, np.concatenate([bending, turns])[first])
-    return Edge(pieces, turning_wear, highest, held, grazing, before)
-
-
-def turning_points(load: Load) -> FloatArray:
-    """Return the phases from 0 to 1 between which the load is smooth and rises or falls
-    throughout."""
-    cuts = np.unique([0.0, *load.kinks, *load.peaks, 1.0])
-    # Between two peaks or kinks there is a trough at most; next to flat ones the slope is rounding.
-    phases, slope = cuts[:-1] + LOOKS * np.diff(cuts), displacements([load]).slope
-    steepness, row = slope(phases), np.arange(len(cuts) - 1)
-    falls, rises = np.argmin(steepness, axis=0), np.argmax(steepness, axis=0)
-    turns = (steepness[falls, row] < 0.0) & (steepness[rises, row] > 0.0) & (falls < rises)
-    low, high = phases[falls, row], phases[rises, row]
-    return np.unique(np.concatenate([cuts, bracketed(slope, low[turns], high[turns])[1]]))
-
-
-def _closing_speed(
-    model: Model, load: Load | Waves, period: float, turning_wear: float, held: float
-) -> Function:
-    """Return the speed at which contact at its edge closes at each phase, in mm per cycle."""
-
-    def closing_speed(phase: FloatArray) -> FloatArray:
-        U_a, speed = load(phase), load.slope(phase)
-        wear = wear_at(model, U_a - held, np.zeros_like(U_a), 0.0, turning_wear)
-        if np.isfinite(turning_wear):
-            scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
-            worn = wear_at(model, U_a - held, np.full_like(U_a, FAR * scale), turning_wear, np.inf)
-            wear = np.where(speed < 0.0, worn, wear)
-        opening = model.margin_slope(wear, U_a) * period * model.law_rate(wear, U_a)
-        result: FloatArray = speed + opening
-        return result
-
-    return closing_speed
-
-
-def _closings(closing_speed: Function, turns: FloatArray, both: bool) -> FloatArray:
-    """Return the phases at which the load starts to close contact at its edge, between two turns;
-    if `both`, also those at which it ceases to."""
-    number = max(2, SAMPLES // len(turns))
-    inside = (1 - np.cos(np.pi * np.arange(number + 1) / number)) / 2
-    inside[0], inside[-1] = NEARLY, 1 - NEARLY
-    phases = (turns[:-1, None] + np.diff(turns)[:, None] * inside).ravel()
-    phases = np.unique(np.concatenate([phases, nearest_to_zero(closing_speed, phases)]))
-    value = closing_speed(phases)
-    same = np.diff(np.searchsorted(turns, phases)) == 0
-    turned = (value[:-1] < 0.0) & (value[1:] >= 0.0)
-    if both:
-        turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
-    turned &= same
-    return bracketed(closing_speed, phases[:-1][turned], phases[1:][turned], FEW_BISECTIONS)[1]
-
-
-def _crest(model: Model) -> float:
-    """Return the wear (mm) at which the displacement that just makes contact is largest: zero if it
-    falls from the start, infinite if it always rises."""
-    scale = float(model.fields(np.array(0.0), np.array(0.0)).sigma)
-
-    def slope(y: FloatArray) -> FloatArray:
-        wear = scale * np.expm1(y)
-        result: FloatArray = model.margin_slope(wear, np.zeros_like(wear))
-        return result
-
-    ends = np.array([0.0, np.log(FAR)])
-    first, last = slope(ends)
-    if first >= 0.0:
-        return 0.0
-    if last <= 0.0:
-        return np.inf
-    return float(scale * np.expm1(bracketed(slope, ends[:1], ends[1:])[1][0]))
 
 
 def phase_of(

@@ -21,9 +21,10 @@ import numpy as np
 
 from wear.loss_of_contact.arrest import RESOLVABLE, TabulatedIterates
 from wear.loss_of_contact.contact import ContactPart
+from wear.loss_of_contact.edge import turning_points
 from wear.loss_of_contact.increments import Coordinate, IncrementSeries, increments, located, step
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, switched_period_map
-from wear.loss_of_contact.switching import Edge, turning_points
+from wear.loss_of_contact.switching import Edge
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
 from wear.numerics.rows import stacked, take
