@@ -96,7 +96,7 @@ def stage_tangents(
     return Tangents(u, error, derivative, derivative_error, increment)
 
 
-class MapDerivatives(NamedTuple):
+class CycleDerivatives(NamedTuple):
     """Cycles from some starts (k,): the `increment` (k,), mm, and `tangent` (k, 1 + parameters),
     its derivatives with respect to the wear before the cycle, and to parameters if that wear moves
     with an `origin`, by its derivatives (k, parameters); and the `error` of the `tangent`.
@@ -137,7 +137,7 @@ class Response(NamedTuple):
         equation: ParametrisedEquation,
         series: IncrementSeries,
         wear: FloatArray,
-        run: MapDerivatives,
+        run: CycleDerivatives,
     ) -> Response:
         """Return the response along a series by the cycles from the wears `_sampled` of it."""
         origin = _beside(equation, series.coordinate)
@@ -150,7 +150,7 @@ class Response(NamedTuple):
         misfit = np.abs(chebyshev_values(CHECKS, nodes.shape[1]) @ coefficients - checks)
         return cls(series, coefficients, misfit, origin)
 
-    def map_derivatives(self, wear: FloatArray) -> MapDerivatives:
+    def map_derivatives(self, wear: FloatArray) -> CycleDerivatives:
         """Return the derivatives of the cycles from each wear (k,), mm."""
         of, z = np.zeros(len(wear), dtype=int), self.series.coordinate.at(wear)
         panel, t, _ = located([self.series], of, z)
@@ -161,7 +161,7 @@ class Response(NamedTuple):
         tangent = each * (basis @ self.coefficients[panel])[:, 0]
         error = np.abs(each) * near_checks(self.misfit[panel], t[:, None])[:, 0]
         origin = np.tile(self.origin, (len(wear), 1))
-        return MapDerivatives(increment, tangent, origin, error)
+        return CycleDerivatives(increment, tangent, origin, error)
 
 
 def _distance(coordinate: Coordinate, wear: FloatArray) -> FloatArray:
@@ -229,7 +229,7 @@ def _resolved(iterates: TabulatedIterates, t: FloatArray) -> FloatArray:
 
 def _one_by_one(
     iterates: Iterates,
-    run: MapDerivatives,
+    run: CycleDerivatives,
     cycles: FloatArray,
     start: FloatArray,
     start_error: FloatArray,
@@ -255,7 +255,7 @@ def _one_by_one(
 
 def _tabulated(
     iterates: TabulatedIterates,
-    run: MapDerivatives,
+    run: CycleDerivatives,
     limit: FloatArray,
     cycles: FloatArray,
     start: FloatArray,
@@ -286,7 +286,7 @@ def _tabulated(
 
 
 def _added(
-    iterates: TabulatedIterates, run: MapDerivatives, limit: FloatArray
+    iterates: TabulatedIterates, run: CycleDerivatives, limit: FloatArray
 ) -> tuple[FloatArray, ...]:
     """Return the increments of z, and of dz/dp - its value for du/dp = `limit`, for cycles from the
     nodes and the CHECKS of each panel, with the derivative of their map and the error, as of
@@ -322,7 +322,7 @@ def _of_grazing(equation: ParametrisedEquation, wear: float) -> FloatArray:
 
 def _of_each(
     cycle: SwitchedPeriodMap, equation: ParametrisedEquation, segments: Sequence[AnyIterates]
-) -> list[MapDerivatives]:
+) -> list[CycleDerivatives]:
     """Return the derivatives of the cycles that each segment needs, all of them at once: by the
     response along a series of increments where that takes fewer cycles."""
     starts = [_starts(iterates) for iterates in segments]
@@ -346,7 +346,7 @@ def _of_each(
     return _split(take(stacked(runs), back), starts)
 
 
-def _split(run: MapDerivatives, starts: Sequence[FloatArray]) -> list[MapDerivatives]:
+def _split(run: CycleDerivatives, starts: Sequence[FloatArray]) -> list[CycleDerivatives]:
     """Return the cycles from each of several `starts`, which follow each other."""
     ends = np.cumsum([0, *(len(each) for each in starts)]).tolist()
     return [take(run, slice(*pair)) for pair in pairwise(ends)]
@@ -354,7 +354,7 @@ def _split(run: MapDerivatives, starts: Sequence[FloatArray]) -> list[MapDerivat
 
 def map_derivatives(
     cycle: SwitchedPeriodMap, equation: ParametrisedEquation, starts: FloatArray
-) -> MapDerivatives:
+) -> CycleDerivatives:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
     added, lasted = np.zeros((2, len(starts)))  # a cycle may begin in contact
@@ -368,7 +368,7 @@ def map_derivatives(
             if len(slid := run.slid):
                 slope, change = _margin(equation, (wear + added[some])[slid], piece.end[slid])
                 own[slid], until[slid] = -change / slope[:, None], piece.end[slid]
-    return MapDerivatives(added, tangent, np.zeros_like(tangent[:, 1:]), np.zeros_like(tangent))
+    return CycleDerivatives(added, tangent, np.zeros_like(tangent[:, 1:]), np.zeros_like(tangent))
 
 
 def _through(
