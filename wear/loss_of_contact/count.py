@@ -30,7 +30,7 @@ from wear.loss_of_contact.parts import (
     with_error,
 )
 from wear.loss_of_contact.period_map import switched_period_map
-from wear.loss_of_contact.plan import GRAIN, SHIFT, CountProblem, count_problem, plan_domains
+from wear.loss_of_contact.plan import SHIFT, CountProblem, GrazingPoint, count_problem, plan_domains
 from wear.loss_of_contact.queries import (
     CYCLES,
     FINER_CYCLES,
@@ -223,23 +223,24 @@ class _Counter:
 
     def _to_the_grazing_wear(self) -> Coroutine[bool]:
         """Skip cycles next to a grazing wear that double precision does not resolve."""
-        ahead = self._grazing_wear()
-        if ahead - self.wear > 2 * GRAIN * ROUNDOFF * ahead:
+        point = self._next_grazing()
+        if point is None or point.at - self.wear > 2 * point.nearest:
             return False
         # Contact shrinks like the root of the distance: twice the cycles at the present rate.
         rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
-        cycles_left = np.floor(2 * (ahead - self.wear) / rate)
+        ahead, distance = point.at, point.at - self.wear
+        cycles_left = np.floor(2 * distance / rate)
         if not FEW <= cycles_left < np.inf:
             return False
-        part = np.array([[self.wear], [ahead], [cycles_left], [ahead - self.wear]])
+        part = np.array([[self.wear], [ahead], [cycles_left], [distance]])
         self.parts.append(UnresolvedIterates(*part))
         self.wear, self.done = ahead, self.done + float(cycles_left)
         return True
 
-    def _grazing_wear(self) -> float:
-        """Return the next grazing wear (mm), infinite if there is none."""
+    def _next_grazing(self) -> GrazingPoint | None:
+        """Return the next grazing wear, None if there is none."""
         behind = self.wear * (1 + 8 * ROUNDOFF)
-        return min((stop.at for stop in self.problem.stops if stop.at > behind), default=np.inf)
+        return next((stop for stop in self.problem.stops if stop.at > behind), None)
 
     def _cycle(self) -> bool:
         """Add one cycle, if a sample near by gives it accurately."""

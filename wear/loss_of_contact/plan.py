@@ -31,7 +31,8 @@ BEGINS = 0.03  # of the increment at a grazing wear: the distance beyond it wher
 ENDS = 0.7  # of the remaining distance: the largest increment in a series
 BEFORE = 0.95  # of the distance to a grazing wear: the longest last cycle on a series
 NEXT = 0.05  # of an increment: the distance before a branch point where a series ends
-GRAIN = 4096.0  # roundoffs of the wear: the smallest distance at which cycles are counted
+GRAIN, BLURRED = 4096.0, 256.0  # roundoffs of the wear, times the uncertainty of a grazing wear:
+# the smallest distance from it at which cycles are counted
 FACTOR, STEPS = 0.25, 21  # of the distances that are sampled ahead
 NEAR, NEARER = 8, 10  # of these: they give the power of the distance
 ROOT = 0.5
@@ -50,6 +51,11 @@ class GrazingPoint(NamedTuple):
     behind: float
     added: float
     uncertainty: float
+
+    @property
+    def nearest(self) -> float:
+        """Return the smallest distance (mm) from it at which cycles are counted."""
+        return max(GRAIN * ROUNDOFF * self.at, BLURRED * self.uncertainty)
 
 
 class CountProblem(NamedTuple):
@@ -156,7 +162,7 @@ def _outwards(
         shift = SHIFT * problem.scale
         domain = SeriesDomain(Coordinate(0.0, False, shift), begin, end, 1.0, shift)
     else:
-        beyond = last.at + max(BEGINS * last.added, GRAIN * ROUNDOFF * last.at)
+        beyond = last.at + max(BEGINS * last.added, last.nearest)
         root = math.sqrt(SHIFT * problem.scale)
         domain = SeriesDomain(Coordinate(last.behind), max(begin, beyond), end, 0.5, root)
     return [domain] if domain.start < domain.end else []
@@ -181,7 +187,7 @@ def _towards(
         domain = SeriesDomain(coordinate, *ends, -0.5, root, stop.uncertainty, vanishes, True)
         return [domain] if nearest < first else []
     least = np.maximum(added / BEFORE - (stop.at - stop.before), NEXT * added)
-    least = np.maximum(least + 2 * added**2 / problem.scale, GRAIN * ROUNDOFF * stop.at)
+    least = np.maximum(least + 2 * added**2 / problem.scale, stop.nearest)
     enough = left >= least
     if not enough[0]:
         return []
