@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from tests.judges import honest, true_wear
 from tests.references import DATA
+from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
@@ -104,6 +105,29 @@ def test_a_series_goes_on_to_a_limit_wear_without_its_rounding():
     left = limit - count.sweep([scene], cycles, 1e-13).u_c[0]
     falls = -np.diff(np.log(left)) / np.diff(cycles)
     assert falls == pytest.approx(falls[0], rel=1e-4)
+
+
+def test_a_grazing_wear_that_rounding_hides_ends_the_series_before_it():
+    """At f = 1/3 with a rough pin the series became no number, and 1e8 cycles were walked."""
+    pin = {"wear_coefficient": 0.0, "roughness_mm": 9.22e-6, "roughness_growth": 0.0}
+    sine = Sine(-1.82e-6, 0.06)
+    scene = made(1e-11, 1 / 3, sine, roughness=4.397e-5, pin=pin, cutoff=True)
+    coarse, fine = (count.sweep([scene], [10**7, 10**9], rtol) for rtol in (1e-7, 1e-11))
+    assert np.all(fine.error <= 1e-11)
+    assert honest(coarse.u_c, coarse.error, fine.u_c, fine.error)
+
+
+def test_contact_that_no_step_resolves_ends_with_its_reason():
+    """Wear that closes the gap without end, by the exponential law: steps shrank for ever."""
+    phases = np.array([0.0, 5.6e-7, 0.406, 0.40600063, 0.74554, 0.74554054, 1.0])
+    values = (-4.08e-6, -2.11e-6, 1.86e-6, 1.79e-6, 6.4e-7, 1.03e-6, -4.08e-6)
+    pin = {"wear_coefficient": 9.4e-8, "roughness_mm": 0.0, "roughness_growth": 0.0}
+    scene = made(
+        5.7e-9, 0.05, Table(tuple((0.06 * phases).tolist()), values), roughness=7.98e-5,
+        closure=1.478e-4, law="exponential", pin=pin, cutoff=True,
+    )  # fmt: skip
+    found = count.sweep([scene], [1, 50, 9000], 1e-4)
+    assert np.all(found.error[0, :2] <= 1e-4)
 
 
 @settings(max_examples=8)

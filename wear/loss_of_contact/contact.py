@@ -205,8 +205,10 @@ def wear_in_contact(
         iteration_error = part.iteration_error * np.abs(part.added)
         error[some] += (excess * tolerance * by_now + iteration_error)[fine]
         length[some] += part.length[fine]
-        going[some] = (steps[fine] > 1.0) & ~ended
+        # Steps that are no longer resolved would only shrink: there the interval ends.
+        going[some] = (steps[fine] > 1.0) & ~ended & sound[some]
         rows = np.flatnonzero(going)
+    error[~sound] = np.inf
     return ContactResult(added, error, length, sound, evaluations, tuple(parts))
 
 
