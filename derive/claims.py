@@ -261,11 +261,11 @@ class Conjunction(Claim):
 class Property(Claim):
     """A predicate, such as the continuity of the load."""
 
-    said: Predicate
+    predicate: Predicate
 
     @property
     def relation(self) -> sp.Basic:
-        return self.said
+        return self.predicate
 
 
 def claim_of(relation: sp.Basic) -> Claim:

@@ -102,10 +102,10 @@ def _combine(left: Dimension | None, right: Dimension | None, power: Fraction) -
 
 
 def _common(terms: tuple[sp.Expr, ...] | list[sp.Expr]) -> Dimension | None:
-    found = {d for d in map(dimension, terms) if d is not None}
-    if len(found) > 1:
+    distinct = {d for d in map(dimension, terms) if d is not None}
+    if len(distinct) > 1:
         raise DimensionError(f"terms of different dimension: {', '.join(map(str, terms))}")
-    return found.pop() if found else None
+    return distinct.pop() if distinct else None
 
 
 def _check_condition(condition: sp.Basic) -> None:

@@ -72,7 +72,7 @@ def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """
     target = Path(folder)
     try:
-        made = not target.exists()
+        created = not target.exists()
         target.mkdir(parents=True, exist_ok=True)
         try:
             # inside the target, thus on the same file system, where a rename is atomic
@@ -84,7 +84,7 @@ def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
                     place.parent.mkdir(parents=True, exist_ok=True)
                     file.replace(place)
         except BaseException:
-            if made:
+            if created:
                 shutil.rmtree(target, ignore_errors=True)
             raise
     except OSError as fault:

@@ -30,13 +30,13 @@ def execute(options: Options) -> Answer:
     """Check the chain of steps."""
     from derive.kernel import identity
 
-    (found,) = arguments.equations([options.id])
-    numbers = {identity(step): number for number, step in enumerate(found.steps, start=1)}
-    rows = [_row(step, numbers) for step in found.steps]
+    (equation,) = arguments.equations([options.id])
+    numbers = {identity(step): number for number, step in enumerate(equation.steps, start=1)}
+    rows = [_row(step, numbers) for step in equation.steps]
     fails = any(row["status"] == "fails" for row in rows)
     return Answer(
-        {"id": found.id, "status": found.status.value, "steps": rows},
-        lambda: "\n\n".join(map(_text, rows, found.steps)),
+        {"id": equation.id, "status": equation.status.value, "steps": rows},
+        lambda: "\n\n".join(map(_text, rows, equation.steps)),
         status=terminal.FAILED if fails else terminal.DONE,
     )
 

@@ -65,9 +65,9 @@ def dependencies(
     """
     waiting, seen = list(expressions), set[sp.Expr]()
     while waiting:
-        for found in quantities(waiting.pop()) - seen:
-            seen.add(found)
-            keys = forms_of(found) if states else (found,)
+        for quantity in quantities(waiting.pop()) - seen:
+            seen.add(quantity)
+            keys = forms_of(quantity) if states else (quantity,)
             waiting += [values[key] for key in keys if key in values]
     return seen
 

@@ -186,11 +186,11 @@ def periodic_rate() -> Finding:
 
 def bracket() -> Finding:
     """C24: the bracket of (16) in numbers."""
-    found = constant_bracket.claim.rhs
+    constant = constant_bracket.claim.rhs
     data = {f_c: sp.Rational(1, 4), h_0: sp.Rational(27, 25000), sigma_c0: sp.Rational(9, 25000)}
-    value = found.subs(data).subs(U_a, 0)
+    value = constant.subs(data).subs(U_a, 0)
     good, evidence, _ = _holds("bracket")
-    refuted = good and not found.has(u_c) and value != 0
+    refuted = good and not constant.has(u_c) and value != 0
     return _finding(
         not refuted,
         f"the bracket is 2 [f_c (h_0 - U_a) - sigma_c0], whatever u_c; for section 4 and U_a = 0 "

@@ -71,10 +71,10 @@ def undetermined(given: sp.Expr, order: Iterable[Judgement]) -> tuple[str, ...]:
     for statement in order:
         left, right = statement.claim.lhs, statement.claim.rhs
         unknown = left.expr if isinstance(left, sp.Derivative) else left
-        own = {unknown} if isinstance(left, sp.Derivative) else set()
+        integrated = {unknown} if isinstance(left, sp.Derivative) else set()
         needs = {f for f in right.atoms(AppliedUndef) if f.args == (t,)}
-        rates = {d.expr for d in right.atoms(sp.Derivative)} - own
-        early = sorted((needs | rates) - known - own, key=str)
+        rates = {d.expr for d in right.atoms(sp.Derivative)} - integrated
+        early = sorted((needs | rates) - known - integrated, key=str)
         faults += [f"{unknown} needs {field} before it is known" for field in early]
         known.add(unknown)
     return tuple(faults)
