@@ -84,7 +84,7 @@ class LogarithmicDrift(Rule):
     The load is periodic; <U_a> is its mean over a period, so that it is integrable.
     """
 
-    words = "Integrate {0} over many periods: the mean adds up to a logarithm."
+    words = "Integrate {0} over many periods: the integral of the mean is a logarithm."
     source = "a periodic function over t integrates to its mean times ln N and a bounded rest"
     asks = ("the approach of the rate",)
 
@@ -124,7 +124,7 @@ class LogarithmicGrowth(Rule):
 
     scale: sp.Expr
     words = (
-        "Separate the variables of {0}: every cycle adds the same to the exponential of the wear."
+        "Separate the variables of {0}: the exponential of the wear grows equally in every cycle."
     )
     source = "DLMF 10.32.1; Cesaro's theorem"
     asks = ("the limit",)

@@ -124,7 +124,7 @@ class Threshold(Rule):
 
     claim: sp.Equivalent
     variable: sp.Symbol
-    words = "The left side increases with {variable} and reaches the level at the bound, by {all}."
+    words = "The left side increases with {variable} and equals the level at the bound, by {all}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = claim_of(self.claim)

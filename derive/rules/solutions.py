@@ -40,7 +40,7 @@ PRESSURE = symbol("p")
 class Follows(Rule):
     """The only root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
 
-    words = "The pressure is the one root of {0}, and follows wear and load continuously."
+    words = "The pressure is the only root of {0}, and a continuous function of wear and load."
     source = "implicit function theorem"
     asks = ("the equation of the pressure",)
 
@@ -72,7 +72,7 @@ class Separate(Rule):
     """
 
     claim: sp.Equality
-    words = "Separate the variables of {0} and integrate from the start on, with {others}."
+    words = "Separate the variables of {0} and integrate from the start, with {others}."
     source = "chain rule; implicit function theorem"
     asks = ("the rate",)
 
