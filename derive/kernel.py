@@ -184,7 +184,7 @@ def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
     if known is None or _content(known[:2]) != known[2]:
         made = _concluded(rule, premises)
         if known is not None and _content(made) != known[2]:
-            raise RuleError("what it rests on was changed")
+            raise RuleError("a stored conclusion was changed")
         known = _KNOWN[application] = *made, _content(made)
     return known[:2]
 

@@ -239,7 +239,7 @@ class SlowTime(Rule):
         inside = sp.expand(self.claim.rhs.subs(sp.log(m / rho), log).subs(m, large))
         terms = sp.Add.make_args(inside)
         if not all(term.has(large, log) and constant(term) for term in terms) or inside.has(sp.log):
-            raise RuleError("missing premise: what is added to s_0 is a function of m")
+            raise RuleError("missing premise: the right side is a function of m without a constant")
         remainder = sp.Poly(sp.expand(slope * speed - 1), small)
         if self.claim.lhs != rho * tau + s_0 or any(n <= ORDER for (n,) in remainder.monoms()):
             raise RuleError("missing premise: dtau/dm times dm/dtau is 1 + O(m^-5)")

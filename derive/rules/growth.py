@@ -51,7 +51,7 @@ class Diverges(Rule):
         speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
         if fields(u) != {u} or not all(map(constant, steady)):
-            raise RuleError(f"missing premise: {self.expr} is linear in what grows")
+            raise RuleError(f"missing premise: {self.expr} is linear in a growing field")
         require_defined(self.expr, *premises)
         for positive in (speed, slope):
             require(sp.Gt(positive, 0), *premises)

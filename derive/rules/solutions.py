@@ -53,7 +53,7 @@ class Follows(Rule):
         known = given.lhs == PRESSURE and constant(still) and smooth(value, p)
         increases = known and sign(1 - sp.diff(value, p), facts) == 1
         if not increases or not continuous(value, moving, *premises):
-            raise RuleError(f"missing premise: {PRESSURE} is the one root of an equation")
+            raise RuleError(f"missing premise: {PRESSURE} is the only root of an equation")
         for field in fields(value) - {*WEARING}:
             if Continuous(field) not in facts:
                 raise RuleError(f"missing premise: {field} is continuous")
@@ -84,7 +84,7 @@ class Separate(Rule):
         (s, first, y), wear = integral.limits[0], known.get(u, u)
         start, facts = y.subs(t, 0), facts_of(premises)
         if not {y, Continuous(y)} & {*WEARING, *facts} or known.get(start, start) != first:
-            raise RuleError(f"missing premise: {start} = {first}, of what moves")
+            raise RuleError(f"missing premise: {start} = {first}, and {y} is continuous")
         require_defined(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)
         rate, wear = (e.xreplace({y: moving, LOAD: load}) for e in (rate, wear))

@@ -159,7 +159,7 @@ def test_an_expression_that_was_changed_in_place_is_found() -> None:
     relation = sp.Gt(q + L, 0, evaluate=False)
     made = Arithmetic(relation)()
     relation._args = (f_c + 7, sp.S.Zero)
-    assert replayed(made) == "what it rests on was changed"
+    assert replayed(made) == "a stored conclusion was changed"
 
 
 def test_a_judgement_that_rests_on_itself_is_found() -> None:

@@ -95,9 +95,9 @@ FAMILIES = (
         (sigma_c0 + f_c * u_c, C * t, ROUGHENS),  # f_c = -0.05
     ), {
         "bounded below by a constant": ("False", u_c, h_0),  # u_c = h_0
-        "u_c - C t": ("linear in what grows", u_c - C * t, C * t),  # u_c = C t
+        "u_c - C t": ("linear in a growing field", u_c - C * t, C * t),  # u_c = C t
         "growth times 1 + |0/0|": ("Ne", u_c * (1 + sp.Abs(GAP)), C * t),
-        "growth times w(tau)": ("linear in what grows", w * u_c, C * t),  # w = e^-tau
+        "growth times w(tau)": ("linear in a growing field", w * u_c, C * t),  # w = e^-tau
     }),
     Family(lambda speed, *facts: unbounded(eq(du, speed), *facts), (
         BENDING, (C * (1 + sigma / h_star), le(sigma, h_star), ROUGH), C * q / (1 + f_c**2) ** 2,

@@ -102,7 +102,7 @@ FAMILIES = (
         "the time of a rate with w(tau)": (r"of u_c\(t\) alone", 1 / (C * w), C * w),
         "a rate of either sign": ("Ne", 1 / f_c, f_c),
         "twice the time": ("separates", 2 / C, C),
-        "another start": ("of what moves", 1 / C, C, eq(initial("u_c"), 1)),
+        "another start": ("is continuous", 1 / C, C, eq(initial("u_c"), 1)),
     }),
     Family(lambda *facts: Integrated(sp.log(u_s - C * T * tau + q))(
         eq(G, sp.Integral(1 / (u_s - C * T * tau + q), (u_s, 0, u_c))), *facts), (
