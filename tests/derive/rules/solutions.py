@@ -126,7 +126,7 @@ FAMILIES = (
     }),
     Family(bent, (1,), {
         # from p to p_max - p, where the wear is the same
-        "a pressure that may jump": ("the one root", -1),
+        "a pressure that may jump": ("the only root", -1),
     }),
     Family(follows, (
         (eq(p, p_max * (U_a - u_c) / h_0), CONSTANTLY), (eq(p, q * U_a), assume(CONTINUOUS)),
