@@ -1,4 +1,4 @@
-"""Equations: the statements a reader knows by number, with their printed and typeset forms.
+"""Equations: the numbered statements, with their printed and typeset forms.
 
 Overview
     ``note`` and ``results`` have the proofs; ``equations.toml`` has the texts by id: section,

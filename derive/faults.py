@@ -1,7 +1,7 @@
-"""Faults that are the user's to mend; their text says how."""
+"""Faults that the user can mend; their text says how."""
 
 from __future__ import annotations
 
 
 class UsageError(ValueError):
-    """Something was asked for that does not exist or does not make sense."""
+    """A request names something that does not exist, or makes no sense."""

@@ -42,7 +42,7 @@ class StableForm:
     """A form of phi(r) and its slope that neither overflows nor loses digits.
 
     ``names`` are intermediates in order, each an expression in r and earlier ones, in exact
-    form but for exponents held below HELD.  ``far_value`` and ``far_steepness`` are phi and
+    form except for exponents held below HELD.  ``far_value`` and ``far_steepness`` are phi and
     phi'/phi in one expression each that does not overflow for large r, where they tend to a limit;
     None where the plain form does not.
     """

@@ -38,7 +38,7 @@ class Variant:
 
     @property
     def name(self) -> str:
-        """Return the name that users know: the module, and whether contact can be lost."""
+        """Return the name for users: the module, and whether contact can be lost."""
         return self.module + "_ends_at_3_sigma" * self.ends_at_3_sigma
 
     @property

@@ -1,7 +1,7 @@
 """Verification: the checks on which equations rest, each distinct step checked once.
 
 Overview
-    Different equations rest on the same steps, which are built anew for each variant of the
+    Different equations rest on the same steps, which are built again for each variant of the
     model.  Two steps are the same if their rules, claims, hypotheses and those of their parents
     are.  Each equation is a task, which may be done in another process.
 Key results

@@ -37,7 +37,7 @@ _SETTINGS = {
 class _NotePrinter(LatexPrinter):
     """SymPy's LaTeX printer with the names and conventions of the field.
 
-    As ISO 80000-2 has it, the d of a differential and the base e stand upright.  Fractions inside
+    The d of a differential and the base e are upright, by ISO 80000-2.  Fractions inside
     fractions and exponents, where they would be tiny, are written on the line.
     """
 
