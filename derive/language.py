@@ -1,17 +1,17 @@
-"""The language of claims: which expressions may stand in one, and what they bind.
+"""The language of claims: the expressions that they may contain, and bound variables.
 
 Overview
-    The kernel trusts the heads that the model needs, real numbers, and names with the domain that
-    the vocabulary gives them.  A head of somebody's own may lie about its sign, another f_c may be
-    positive, O(t) is no number, nor is one of limited precision: none is of the language.
+    The kernel trusts the heads that the model needs, real numbers, and names with the domain of
+    the vocabulary.  A new head may have a false sign, another f_c may be positive, O(t) is no
+    number, nor is a float exact: none of these is in the language.
 Key results
-    fault(expr)    why an expression is not of the language, or None
-    names(expr)    the names in an expression, each with what bears it
-    defined_by     the names that a definition gives a meaning, meant_by by which
+    fault(expr)    the reason why an expression is not in the language, or None
+    names(expr)    the names in an expression, with their symbols or functions
+    defined_by     the names that a definition introduces, meant_by the names in their meaning
     bound(expr)    the variables that one node binds: of an integral, a limit, a derivative
-    certain(expr)  the parts that have a value wherever the whole has one
-    needs(expr)    what gives an expression a value where its arguments have one
-    told_by(expr)  what holds wherever it has one
+    certain(expr)  the parts that are defined wherever the whole is
+    needs(expr)    the conditions for an expression to be defined, if its arguments are
+    told_by(expr)  relations that hold wherever it is defined
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ _RANGES = [sp.Function("any", **domain)._kwargs for domain in _SIGNS]
 
 
 def fault(expr: sp.Basic) -> str | None:
-    """Return why an expression is not of the language, None if it is.
+    """Return why an expression is not in the language, None if it is.
 
-    Nothing is asked of a node before its type is known: it may say that it equals another.
+    The type of a node is checked before any of its methods is called: it may lie.
 
     >>> fault(symbol("f_c") + 1), fault(sp.Symbol("f_c", positive=True))
     (None, 'f_c is not the f_c of the vocabulary')
@@ -73,7 +73,7 @@ def fault(expr: sp.Basic) -> str | None:
 
 
 def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
-    """Return the nodes of an expression, but infinity where a limit may have it."""
+    """Yield the nodes of an expression, without the infinities that a limit may have."""
     yield expr
     parts = expr.args
     if isinstance(expr, sp.Limit):
@@ -120,7 +120,7 @@ def _clocks(expr: sp.Expr) -> set[str]:
 
 
 def _held_fixed(node: sp.Basic) -> str:
-    """Return what varies with the variable that a node binds, other than that variable.
+    """Return the other quantities that vary with the variable that a node binds.
 
     With a clock all clocks vary; with a datum fields and names do.
     """
@@ -138,7 +138,7 @@ def _held_fixed(node: sp.Basic) -> str:
 
 
 def _leaves_domain(node: sp.Basic) -> str | None:
-    """Return which variable takes a value outside of its domain, such as a time before 0."""
+    """Return the fault of a variable with a value outside its domain, such as a negative time."""
     for name, value in _taken(node):
         inside = value.is_positive if name.is_positive else value.is_nonnegative
         if name.is_nonnegative and not inside:
@@ -147,7 +147,7 @@ def _leaves_domain(node: sp.Basic) -> str | None:
 
 
 def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
-    """Return the variables that take a value in a node, each with its value."""
+    """Yield the variables that a node gives a value, with these values."""
     if isinstance(node, AppliedUndef) and node.func not in _FUNCTIONS:
         yield t, node.args[0]
     elif isinstance(node, sp.Integral):
@@ -173,14 +173,14 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
 
 
 def _shows(name: str) -> bool:
-    """Return whether a name is typeset as it is typed, and as no quantity of the vocabulary."""
+    """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary."""
     shown = face(name)
     return shown not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 
 
 @cache
 def face(name: str) -> str:
-    """Return a name as it is typeset: x1 and x_1 look alike."""
+    """Return a name as typeset: x1 and x_1 look alike."""
     return str(sp.latex(sp.Symbol(name))).replace(" ", "")
 
 
@@ -208,7 +208,7 @@ def defined_by(relation: sp.Basic) -> frozenset[str]:
 
 
 def meant_by(relation: sp.Basic) -> frozenset[str]:
-    """Return the names by which it does so: those of the value, or all others."""
+    """Return the names in the meaning of a definition: those of the value, or all others."""
     given = defined_by(relation)
     if given and {_name(relation.args[0])} == given:
         return frozenset(name for name, _ in names(relation.args[1]))
@@ -230,7 +230,7 @@ def bound_in(expr: sp.Basic) -> frozenset[sp.Basic]:
 
 
 def certain(expr: sp.Basic) -> Iterator[sp.Basic]:
-    """Return the parts that have a value wherever the whole has one: no branch, no integrand."""
+    """Yield the parts that are defined wherever the whole is: not branches or integrands."""
     yield expr
     whole = (Relational, sp.And, sp.Add, sp.Mul, sp.Pow, sp.Function)
     if isinstance(expr, whole) and not isinstance(expr, sp.Piecewise):
@@ -239,7 +239,7 @@ def certain(expr: sp.Basic) -> Iterator[sp.Basic]:
 
 
 def needs(expr: sp.Basic) -> list[sp.Basic]:
-    """Return the relation that gives an expression a value where its arguments have one."""
+    """Return the condition for an expression to be defined if its arguments are."""
     if expr in (sp.zoo, sp.nan):
         return [sp.false]
     unknown = sp.Ne(expr, sp.zoo, evaluate=False)
@@ -269,9 +269,9 @@ def needs(expr: sp.Basic) -> list[sp.Basic]:
 
 
 def told_by(expr: sp.Basic) -> list[sp.Basic]:
-    """Return the relation that holds wherever an expression has a value.
+    """Return the relation that holds wherever an expression is defined.
 
-    A power may have one for a base of either sign, as its exponent is.
+    There is none for a power with a symbolic exponent, which may be defined for any base.
     """
     return [] if isinstance(expr, sp.Pow) and not expr.exp.is_Rational else needs(expr)
 

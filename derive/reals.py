@@ -2,13 +2,13 @@
 
 Overview
     ``holds`` asks z3 whether the facts and the negated goal contradict each other in the reals.
-    What is no polynomial is opaque: a square root is known by its square, an exponential, a
-    hyperbolic tangent, the contact law and its slope by their range, a constant by a ball.  A
-    quotient whose denominator vanishes is any number, so that no answer rests on it.
+    Parts that are no polynomials are opaque: a square root is known by its square, an exponential,
+    a hyperbolic tangent, the contact law and its slope by their range, a constant by a ball.  A
+    quotient with a vanishing denominator is any number, so that no result rests on it.
 Key results
     holds(goal, facts)       whether the relation follows; False proves nothing
     sign(expr, facts)        1, -1 or None
-    contradictory(facts)     whether nothing satisfies them; False proves nothing
+    contradictory(facts)     whether no numbers satisfy them; False proves nothing
 References
     de Moura, Bjorner, Z3: an efficient SMT solver, TACAS 2008; Jovanovic, de Moura, Solving
     nonlinear arithmetic, IJCAR 2012.
@@ -31,7 +31,7 @@ LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""
 
 EFFORT = 3_000_000
-"""Steps of z3 after which a side condition counts as not proved; no matter of time."""
+"""Number of z3's steps after which a side condition counts as not proved; independent of time."""
 
 _BALL = {sp.exp: flint.arb.exp, sp.log: flint.arb.log, sp.tanh: flint.arb.tanh}
 _RELATIONS = {
@@ -46,7 +46,7 @@ _RELATIONS = {
 
 @cache
 def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
-    """Return True where the goal follows from facts; False proves nothing.
+    """Return True if the goal follows from facts; False proves nothing.
 
     >>> x, y = sp.symbols("x y", real=True)
     >>> holds(x + y > 0, frozenset([x > 1, sp.Abs(y) <= 1])), holds(x + y > 0)
@@ -63,7 +63,7 @@ def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
 
 @cache
 def contradictory(facts: frozenset[sp.Basic]) -> bool:
-    """Return True where no real numbers satisfy all facts; False proves nothing.
+    """Return True if no real numbers satisfy all facts; False proves nothing.
 
     >>> x = sp.Symbol("x", real=True)
     >>> contradictory(frozenset([sp.Eq(2 * x, 0), x > 1])), contradictory(frozenset([x > 1]))
@@ -73,24 +73,24 @@ def contradictory(facts: frozenset[sp.Basic]) -> bool:
 
 
 def _refuted(facts: frozenset[sp.Basic], goal: sp.Basic | None = None) -> bool:
-    """Return whether facts, and that the goal does not hold, contradict each other."""
+    """Return whether the facts and the negation of the goal contradict each other."""
     translator, solver = _Translator(), z3.Solver()
     solver.set("rlimit", EFFORT)
-    wanted = z3.BoolVal(False) if goal is None else translator.relation(goal)
-    if wanted is None:
+    translated = z3.BoolVal(False) if goal is None else translator.relation(goal)
+    if translated is None:
         return False
     parts = {part for fact in facts if not fact.has(sp.zoo) for part in certain(fact)}
-    said = facts.union(*map(told_by, parts))
-    if sp.false in said:
+    implied = facts.union(*map(told_by, parts))
+    if sp.false in implied:
         return True
-    given = (translator.relation(fact) for fact in sorted(said, key=str))
+    given = (translator.relation(fact) for fact in sorted(implied, key=str))
     known = [relation for relation in given if relation is not None]
-    solver.add(*known, *translator.known, z3.Not(wanted))
+    solver.add(*known, *translator.known, z3.Not(translated))
     return bool(solver.check() == z3.unsat)
 
 
 def _relevant(goal: sp.Basic, facts: frozenset[sp.Basic]) -> frozenset[sp.Basic]:
-    """Return the facts about nothing but what the goal is about: most goals need no others."""
+    """Return the facts without unknowns other than the goal's, which suffice for most goals."""
     atoms = _unknowns(goal)
     return frozenset(fact for fact in facts if _unknowns(fact) <= atoms)
 
@@ -101,14 +101,14 @@ def _unknowns(expr: sp.Basic) -> frozenset[sp.Basic]:
 
 
 class _Translator:
-    """Relations as z3 takes them; ``known`` collects what is known of opaque parts."""
+    """Translates relations for z3; ``known`` collects the properties of opaque parts."""
 
     def __init__(self) -> None:
         self.names: dict[sp.Basic, z3.ArithRef] = {}
         self.known: list[z3.BoolRef] = []
 
     def relation(self, relation: sp.Basic) -> z3.BoolRef | None:
-        """Return a relation, None for one of a kind that is not of the reals."""
+        """Return a relation for z3, None if it is not about real numbers."""
         if isinstance(relation, (sp.And, sp.Or, sp.Not, sp.Equivalent)):
             parts = [self.relation(part) for part in relation.args]
             if None in parts:
@@ -121,7 +121,7 @@ class _Translator:
         return _RELATIONS[type(relation)](*map(self.number, relation.args))
 
     def number(self, expr: sp.Expr) -> z3.ArithRef:
-        """Return an expression, opaque where it is no polynomial, quotient or root."""
+        """Return an expression for z3, with opaque parts except in polynomials and roots."""
         if isinstance(expr, sp.Rational):
             return z3.Q(int(expr.p), int(expr.q))
         if isinstance(expr, sp.Add):
@@ -145,7 +145,7 @@ class _Translator:
         return self.names[expr]
 
     def _opaque(self, expr: sp.Expr, name: z3.ArithRef) -> None:
-        """State what is known of an opaque part."""
+        """Add the known properties of an opaque part."""
         if isinstance(expr, _Root):
             inside = self.number(expr.args[0])
             self.known.append(z3.Implies(inside >= 0, z3.And(name >= 0, name * name == inside)))
@@ -167,11 +167,11 @@ class _Translator:
 
 
 class _Root(sp.Expr):
-    """The square root of its argument, kept apart."""
+    """The square root of its argument, as an opaque part."""
 
 
 def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
-    """Return a rational number below (-1) or above (1) a constant, from a ball that holds it."""
+    """Return a rational number below (-1) or above (1) a constant, from a ball around it."""
     if expr is sp.pi:
         ball = flint.arb.pi()
     else:

@@ -1,17 +1,17 @@
 """The rules: every theorem by which a judgement may follow from others.
 
 Overview
-    A rule reads its premises, proves its side conditions from them, and concludes.  What it
-    needs and does not find it names.  A rule is applied to premises like a function; one that
-    leaves its author nothing to choose has a name for it: ``substitute = Substitute()``.
+    A rule reads its premises, proves its side conditions from them, and concludes, or names a
+    missing premise.  It is applied to premises like a function; a rule without choices has one
+    named instance: ``substitute = Substitute()``.
 Contents
     assumption    hypotheses and definitions
-    algebra       at an instant: substitute, solve, rewrite; hypotheses that are met
+    algebra       at an instant: substitute, solve, rewrite; discharged hypotheses
     inequalities  between reals, and from one quantity to another
     calculus      from rates to wear; the rigid support; scaled time
     limits        t -> oo
-    growth        wear without bound, and what follows
-    drift         how limits are approached
+    growth        wear without bound, and its consequences
+    drift         the approach to limits
     solutions     solutions of the differential equation, and their inverses
     averages      averaging over a sine load
     data          derivatives with respect to a parameter

@@ -1,8 +1,8 @@
-"""Algebra at an instant: what holds wherever the premises do.
+"""Algebra at an instant: claims that hold wherever the premises do.
 
 Key results
     substitute, Solve, Multiply, restrict        equations
-    Identity, Insert, Logarithm                  claims that an author writes, then proved
+    Identity, Insert, Logarithm                  claims that an author writes, to be proved
     Consequence                                  the same relation in another form
     discharge, forget                            hypotheses that follow from others
 """
@@ -48,10 +48,10 @@ class Substitute(Rule):
 
 
 def _put(claim: Claim, known: Equality) -> Claim:
-    made = claim.map(lambda side: replaced(side, known.lhs, known.rhs))
-    if made.relation.has(sp.zoo, sp.nan):
+    result = claim.map(lambda side: replaced(side, known.lhs, known.rhs))
+    if result.relation.has(sp.zoo, sp.nan):
         raise RuleError(f"{claim.relation} has no value for {known.lhs} = {known.rhs}")
-    return made
+    return result
 
 
 substitute = Substitute()
@@ -137,7 +137,7 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
 
 @dataclass(frozen=True)
 class Identity(Rule):
-    """An equation that holds for every value of its unknowns; premises show that it has values."""
+    """An equation that holds for every value of its unknowns; premises prove it defined."""
 
     claim: sp.Equality
 
@@ -210,7 +210,7 @@ class Consequence(Rule):
 
 
 def _sides(claim: Claim) -> tuple[object, sp.Expr, sp.Expr]:
-    """Return the kind of a claim and the two expressions in it."""
+    """Return the kind of a claim and its two sides."""
     if isinstance(claim, Limit):
         return Limit, claim.expr, claim.value
     if isinstance(claim, Inequality):
@@ -248,15 +248,15 @@ class Forget(Rule):
     """``x = v`` is no hypothesis where x, which may have the value v, occurs nowhere else."""
 
     hypothesis: Hypothesis
-    words = "{0}, which says nothing of that value."
+    words = "{0} does not depend on that value."
     asks = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
-        said = self.hypothesis.relation
-        if not isinstance(said, sp.Equality) or not said.lhs.is_Symbol:
+        relation = self.hypothesis.relation
+        if not isinstance(relation, sp.Equality) or not relation.lhs.is_Symbol:
             raise RuleError(f"missing premise: {self.hypothesis.text} is the value of a symbol")
-        name, value = said.args
+        name, value = relation.args
         others = [h.relation for h in first.hypotheses if h != self.hypothesis]
         if not constant(sp.Tuple(name, value)):
             raise RuleError(f"missing premise: {name} and {value} are constant")

@@ -20,7 +20,7 @@ from .proving import facts_of, falls, smooth, told, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
-"""Kinds that no reader sees beside an equation: they may not hide a condition."""
+"""Kinds that are not shown beside an equation, and so must not hide a condition."""
 _MEANT = {
     t: symbol("T") * symbol("tau"),
     symbol("N"): t / symbol("T"),
@@ -28,9 +28,9 @@ _MEANT = {
     symbol("f_cc"): symbol("f_c"),
     symbol("rho"): symbol("f_c") * symbol("u_cum"),
 }
-"""What the model and the expansion speak of, where it may be defined, and as what."""
+"""Names of the model and of the expansion with the only definitions that they may have."""
 _GIVEN = DATA | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
-"""What has a meaning already: data, and what rules speak of or integrate over."""
+"""Names that have a meaning already: data, and names that rules use."""
 _AT_EVERY_TIME = ((t,), (symbol("tau"),))
 
 
@@ -41,7 +41,7 @@ class Assume(Rule):
     hypothesis: Hypothesis
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        said, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
+        given, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
         instant = bool(clocks(relation)) and all(map(constant, functions(relation)))
         named = kind is Kind.DEFINITION
         if (
@@ -49,31 +49,31 @@ class Assume(Rule):
             or relation.has(landau_o)
             or (not named and (instant or premises))
         ):
-            raise RuleError(f"{said.text}: cannot be assumed")
+            raise RuleError(f"{given.text}: cannot be assumed")
         law = law_of(relation) if kind is Kind.MODEL else None
         known = {Kind.MODEL: WORDS, Kind.INITIAL: START}.get(kind, (relation,))
         if law is None and relation not in known:
-            raise RuleError(f"{said.text}: no equation of the model")
+            raise RuleError(f"{given.text}: no equation of the model")
         if law is not None and not falls(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = claim_of(relation)
         equation = isinstance(claim, (Equality, Limit)) or relation == EXPANSION.relation
         if kind in _HIDDEN and not equation:
-            raise RuleError(f"{said.text}: no equation")
+            raise RuleError(f"{given.text}: no equation")
         supposes = named and not isinstance(claim, Property)
         adds = _supposed(claim.relation, premises) if supposes else ()
-        return Conclusion(claim, adds=(said, *adds))
+        return Conclusion(claim, adds=(given, *adds))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         return f"Hypothesis: {self.hypothesis.text}."
 
 
 def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[Hypothesis, ...]:
-    """Return what a definition supposes and the premises do not prove: that what it stands for
-    has a value, of the sign of its name.
+    """Return the conditions of a definition that the premises do not prove.
 
-    So every value of all else allows one of the name, of which a reader need not be told.
-    RuleError where no relation says what is supposed, or what is defined is no new name.
+    The defined expression must have a value, of the sign of its name.  Then the definition itself
+    restricts no other quantity, and need not be shown.  RuleError if no relation expresses the
+    condition, or if the name is not new.
     """
     name, value = relation.args
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
@@ -96,29 +96,29 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
 
 
 def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]) -> None:
-    """Refuse to define what is given, or a constant by what varies."""
+    """Refuse to define a given name, or a constant by an expression that varies."""
     now = at_an_instant(value)
     if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
     if now != _MEANT.get(name, now):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
-    said = inserted(now, premises)
-    rates = {field: sp.Derivative(field, t) for field in fields(said)}
-    change = inserted(sp.Add(*(sp.diff(said, f) * rate for f, rate in rates.items())), premises)
-    varies = clocks(said) or any(d.has(t) for d in said.atoms(sp.Derivative))
+    expr = inserted(now, premises)
+    rates = {field: sp.Derivative(field, t) for field in fields(expr)}
+    change = inserted(sp.Add(*(sp.diff(expr, f) * rate for f, rate in rates.items())), premises)
+    varies = clocks(expr) or any(d.has(t) for d in expr.atoms(sp.Derivative))
     unknown = [*undefined(sp.Tuple(*rates.values()), *premises)]
-    jumps = bool(rates) and not smooth(said, *rates)
+    jumps = bool(rates) and not smooth(expr, *rates)
     if not clocks(name) and (varies or unknown or jumps or not is_zero(change)):
         raise RuleError(f"missing premise: {now} is constant")
 
 
 def _solvable(relation: sp.Equality) -> sp.Expr | None:
-    """Return an equation, or what tends to a limit by one, with a variable for each field of one's
-    own, each of their rates and each name, if it has a solution whatever the data and the other
-    fields; else None.
+    """Return an equation between new unknowns that has a solution for all data, else None.
 
-    It is linear in them.  Either zero solves it, or it has no limit and no rate, and one of them,
-    of any sign, has a factor that is never zero and occurs in it once.
+    The unknowns are the fields beyond the model, their rates and the new names; each is replaced
+    by a variable.  The equation, or the expression whose limit it gives, must be linear in them.
+    Either zero solves it, or it has no limit and no rate, and one unknown, of any sign, has a
+    factor that is never zero and occurs in it once.
     """
     tends = isinstance(relation.lhs, sp.Limit)
     whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
@@ -151,8 +151,11 @@ def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgemen
 
 
 def define(relation: sp.Basic, *steady: Judgement) -> Judgement:
-    """Return the definition of what is new in a relation; further premises say that what varies
-    here does not, and that the value exists and has the sign of the name."""
+    """Return the definition of the new name in a relation.
+
+    Premises prove that the value exists, has the sign of the name and, for a constant, does not
+    vary.
+    """
     return infer(Assume(Hypothesis(relation, Kind.DEFINITION)), *steady)
 
 

@@ -3,7 +3,7 @@
 Key results
     integrate      dy/dt = c dx/dt, from the initial values
     grows          du/dt >= c and u(0) give u >= u(0) + c t
-    differentiate  the rates of two sides that are equal at every time
+    differentiate  the rates of both sides of an equality that holds at every time
     rigid          k U_c = p becomes U_c = 0: the limit k -> oo
     change_clock   the rate of a scaled quantity in scaled time
 """
@@ -86,7 +86,7 @@ grows = Grows()
 class Differentiate(Rule):
     """An equality that holds at every time gives that of the rates of both sides.
 
-    Wear and roughness have rates, by Archard's law; others where a premise says so.
+    Wear and roughness have rates by Archard's law; other fields need a premise that they have.
     """
 
     words = "Differentiate {0} with respect to time."
@@ -98,8 +98,8 @@ class Differentiate(Rule):
         if not smooth(given.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
         rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
-        own = {given.lhs} & fields(given.lhs)  # has the rate of the other side
-        require_defined(sp.Tuple(*rates[len(own) :]), *premises)
+        single = {given.lhs} & fields(given.lhs)  # has the rate of the other side
+        require_defined(sp.Tuple(*rates[len(single) :]), *premises)
         return Conclusion(Equality(*rates))
 
 
@@ -129,9 +129,9 @@ class RigidLimit(Rule):
         if loads or given.relation.has(U_c.func) or any(h.relation.has(k) for h in others):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
         deeper = {k: 1 / small, LOAD: LOAD + small * p}
-        said = k, LOAD, U_c  # of which a premise speaks at finite stiffness
+        changed = k, LOAD, U_c  # premises about them hold at finite stiffness only
         sides = [side.subs(deeper, simultaneous=True) for side in (given.lhs, given.rhs)]
-        if not all(continuous(side, {small: sp.S.Zero}, first, but=said) for side in sides):
+        if not all(continuous(side, {small: sp.S.Zero}, first, but=changed) for side in sides):
             raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
         left, right = (side.subs(small, 0) for side in sides)
         return Conclusion(Equality(left, right), adds=(RIGID,), discharges=(SPRINGS,))

@@ -1,11 +1,11 @@
-"""Growth: wear without bound, and what functions of it tend to.
+"""Growth: wear without bound, and the limits of functions of it.
 
 Key results
     Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
     unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
-    AtInfinity       what a function of u and bounded fields tends to as u -> oo
-    intermittent     a rate that is on during a fraction d of every period adds d T R
-    bounds           what keeps a field between two constants
+    AtInfinity       the limit of a function of u and bounded fields as u -> oo
+    intermittent     a rate that acts during a fraction d of every period adds d T R
+    bounds           the relations that bound a field by constants
 References
     Rudin, Principles of Mathematical Analysis, 1976, chapters 4 and 5.
 """
@@ -59,7 +59,7 @@ class Diverges(Rule):
 
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
-    """Return relations that keep a field between two constants; RuleError where there are none."""
+    """Return relations that bound a field by two constants; RuleError if there are none."""
     parts = (p for f in facts_of(premises) for p in (f.args if isinstance(f, sp.And) else (f,)))
     found = []
     for small, large in (
@@ -77,15 +77,17 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
 
 
 def _plain(moving: Iterable[sp.Expr]) -> dict[sp.Expr, sp.Symbol]:
-    """Return variables of any value for fields: what holds of a field at each time is lost, as it
-    need not hold of what the field comes close to."""
+    """Return a variable of any value for each field.
+
+    Relations of the field at each time are dropped, as they need not hold for its limit points.
+    """
     return {field: sp.Dummy(str(field.func), real=True) for field in moving}
 
 
 def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judgement) -> None:
-    """Refuse a rate that is not positive and continuous wherever its fields may be.
+    """Refuse a rate unless it is positive and continuous for all values of its fields.
 
-    They are taken for variables of which relations are known, and what is said of constants.
+    The fields are variables with the relations ``known``, beside the hypotheses on constants.
     """
     plain = _plain(fields(rate))
     of_data = [h.relation for p in premises for h in p.hypotheses if constant(h.relation)]
@@ -100,12 +102,12 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
 class Unbounded(Rule):
     """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
 
-    Were u, which increases, bounded, then u and a would stay in a compact set, on which F has a
-    positive minimum.  So F has to be positive where the bounds of a are attained, too.
+    If u, which increases, were bounded, u and a would stay in a compact set, on which F has a
+    positive minimum.  So F must be positive at the bounds of a, too.
     """
 
     words = (
-        "A positive, continuous rate {0} under a bounded load: were the wear bounded, the rate "
+        "A positive, continuous rate {0} under a bounded load: if the wear were bounded, the rate "
         "would be bounded away from zero."
     )
     source = "extreme value theorem"
@@ -193,7 +195,7 @@ class AtInfinity(Rule):
         return Conclusion(in_time(inside, self.claim.rhs))
 
     def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
-        """Return u in terms of what is small, for ``z = 1/u`` and for ``z = exp(-c u)``."""
+        """Return u as a function of z, for ``z = 1/u`` and for ``z = exp(-c u)``."""
         if self.small == 1 / u:
             return 1 / z
         inside = self.small.args[0] if isinstance(self.small, sp.exp) else u**2

@@ -2,7 +2,7 @@
 
 Key results
     forever, later   the limit for t -> oo; an expression one period later
-    one_period_later what holds at every time holds one period later
+    one_period_later a claim about every time, one period later
     vanishes         |e| <= B/s and s -> oo give e -> 0
     Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
@@ -61,7 +61,7 @@ def in_time(expr: sp.Expr, value: sp.Expr) -> Limit:
 
 @dataclass(frozen=True)
 class OnePeriodLater(Rule):
-    """What holds at every time holds one period later."""
+    """A claim that holds at every time holds one period later."""
 
     words = "One period later, {0}."
     asks = ("the claim",)
@@ -77,7 +77,7 @@ one_period_later = OnePeriodLater()
 
 
 def _at_one_time(expr: sp.Basic) -> bool:
-    """Return whether an expression is about fields at one time, which may come later."""
+    """Return whether an expression is about fields at one time, so that it can be shifted."""
     nodes = (node for node in sp.preorder_traversal(expr) if not isinstance(node, sp.Derivative))
     return not clocks(expr) and not any(t in bound(node) for node in nodes)
 
@@ -104,7 +104,7 @@ vanishes = Vanishes()
 
 @dataclass(frozen=True)
 class Passes(Rule):
-    """Limits pass through a function that is continuous where they end, and through one period.
+    """Limits pass through a function that is continuous at them, and through one period.
 
     The premises give the limits of some expressions, and equalities; the claim is the limit of a
     combination of those expressions, now or one period later.  Of ``s -> oo`` it uses 1/s -> 0.
@@ -113,7 +113,7 @@ class Passes(Rule):
     claim: sp.Equality
     words = (
         "Let time tend to infinity in {0}: the limit in {others} passes through a function that "
-        "is continuous where it ends."
+        "is continuous at the limit."
     )
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -144,7 +144,7 @@ class Passes(Rule):
 
 
 def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
-    """Return an expression with what premises say is equal."""
+    """Return an expression with the equalities of premises inserted."""
     for claim in (premise.claim for premise in premises):
         if isinstance(claim, Equality):
             expr = replaced(expr, claim.lhs, claim.rhs)

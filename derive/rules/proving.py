@@ -1,10 +1,10 @@
-"""Side conditions: what premises give, and where an expression has a value.
+"""Side conditions: the facts in premises, and the domains of expressions.
 
 Overview
-    What a premise claims and supposes are facts; ``derive.reals`` decides what follows from them.
-    ``require_defined`` asks that denominators, roots, logarithms and integrals have a value.
+    The claims and hypotheses of premises are facts; ``derive.reals`` decides their consequences.
+    ``require_defined`` requires values of denominators, roots, logarithms and integrals.
 Key results
-    facts_of                 what premises give
+    facts_of                 the facts in premises
     require                  RuleError unless a relation follows from premises
     require_defined          RuleError unless every part of an expression has a value
     undefined                the relations that are missing
@@ -31,7 +31,7 @@ from ..reals import LAW, holds, sign
 from ..symbols import symbols, t
 from .reading import constant
 
-#: What cuts an integral into finitely many pieces, on each of which it is continuous.
+#: Heads of integrands that are continuous on each of finitely many pieces.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
 #: Functions that are differentiable wherever they have a value; roots but at 0.
 _SMOOTH = (
@@ -46,8 +46,8 @@ _CONTINUOUS = (
 
 
 def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
-    """Return what premises give: their claims, all of their hypotheses, and that every part of a
-    claim has a value."""
+    """Return the facts in premises: claims, hypotheses, and that all parts of claims are
+    defined."""
     found: set[sp.Basic] = set()
     for premise in premises:
         if not isinstance(premise.claim, Asymptotic):
@@ -58,8 +58,7 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
 
 
 def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
-    """Return the fields that are continuous: of which a fact says so, and what equals a
-    continuous expression."""
+    """Return the continuous fields: by a fact, or as they equal a continuous expression."""
     found = {fact.args[0] for fact in facts if isinstance(fact, Continuous)}
     found |= {LOAD} if DIFFERENTIABLE.relation in facts else set()
     values = [f for f in facts if isinstance(f, sp.Equality) and isinstance(f.lhs, AppliedUndef)]
@@ -72,12 +71,12 @@ def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
     """Return whether an expression is continuous in time wherever it has a value."""
     if constant(expr) or expr in (*symbols("t tau N"), *WEARING, *fields):
         return True
-    made = bool(expr.args) and isinstance(expr, _CONTINUOUS)
-    return made and all(_unbroken(part, fields) for part in expr.args)
+    composed = bool(expr.args) and isinstance(expr, _CONTINUOUS)
+    return composed and all(_unbroken(part, fields) for part in expr.args)
 
 
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
-    """Return the parts of claims that have a value, at every time and not just in the end."""
+    """Return the parts of claims that have a value at every time, not only in the limit."""
     late = (Asymptotic, Limit)
     wholes = (premise.relation for premise in premises if not isinstance(premise.claim, late))
     ends = (premise.claim for premise in premises if isinstance(premise.claim, Limit))
@@ -97,22 +96,24 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
 def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()) -> None:
     """Raise RuleError unless every part of an expression has a value under the premises.
 
-    Where it is asked near the end of a limit, ``near`` has a value there, too.
+    For a neighbourhood of the end of a limit, ``near`` are expressions defined there too.
     """
     for goal in undefined(expr, *premises, near=near):
         raise RuleError(f"missing premise: {told(goal)}")
 
 
 def told(goal: sp.Basic) -> str:
-    """Return a relation in words where it stands for a value."""
+    """Return a relation as text, in words if it states the existence of a value."""
     return f"{goal.args[0]} has a value" if goal.has(sp.zoo) else str(goal)
 
 
 def undefined(
     expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()
 ) -> Iterator[sp.Basic]:
-    """Yield the relations that would give every part of an expression a value, and do not follow
-    from premises, or from what gives ``near`` a value."""
+    """Yield the conditions for an expression to be defined that remain unproved.
+
+    Those that follow from premises, or from the existence of ``near``, are omitted.
+    """
     ends = {part for whole in near for part in certain(whole)}
     facts = facts_of(premises).union(*map(told_by, ends))
     needed = _needed(expr, _parts(premises) | ends, facts)
@@ -127,7 +128,7 @@ def _needed(
         return []
     parts = () if isinstance(expr, sp.Derivative) else expr.args
     hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t}}
-    parts = tuple(part.xreplace(hidden) for part in parts)  # of these no premise speaks
+    parts = tuple(part.xreplace(hidden) for part in parts)  # unknown to premises
     goals = [goal for part in parts for goal in _needed(part, known, facts)]
     if isinstance(expr, sp.Integral):
         s, low, high = expr.xreplace(hidden).limits[0]
@@ -141,18 +142,18 @@ def _needed(
 def _between(
     s: sp.Symbol, first: sp.Expr, last: sp.Expr, facts: Collection[sp.Basic]
 ) -> list[sp.Basic]:
-    """Return what is known of the values between that of a continuous field at first and now.
+    """Return the facts about values between the first and the present one of a continuous field.
 
-    By the intermediate value theorem it takes them all, and what is said of it holds always.
+    By the intermediate value theorem the field takes all of them, and facts about it hold always.
     """
     start = last.subs(t, 0)
     begun = first == start or sp.Eq(start, first) in facts
     if not begun or not (last in WEARING or Continuous(last) in facts):
         return []
     parts = (part for fact in facts for part in sp.And.make_args(fact))
-    said = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
-    met = (fact.xreplace({last: s}) for fact in said)
-    return [fact for fact in met if constant(fact) and not fact.has(sp.zoo)]
+    about = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
+    shifted = (fact.xreplace({last: s}) for fact in about)
+    return [fact for fact in shifted if constant(fact) and not fact.has(sp.zoo)]
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
@@ -173,8 +174,8 @@ def continuous(
 ) -> bool:
     """Return whether an expression is continuous in some unknowns at a point.
 
-    It must be made of continuous functions, which have a value at the point and near it; what
-    premises say of the quantities ``but`` is no fact there.
+    It must consist of continuous functions that are defined at the point and near it.  Facts about
+    the quantities ``but`` are not used.
     """
     plain = {unknown: sp.Dummy(real=True) for unknown in at}
     known = {part for part in _parts(premises) if not part.has(*but)}
@@ -187,7 +188,7 @@ def continuous(
 def continuity(
     expr: sp.Expr, unknowns: set[sp.Basic], known: Collection[sp.Basic] = ()
 ) -> list[sp.Basic]:
-    """Return the relations, true on open sets, where an expression is continuous in unknowns."""
+    """Return conditions, true on open sets, under which an expression is continuous in unknowns."""
     changing = [part for part in sp.preorder_traversal(expr) if part.has(*unknowns)]
     if not all(isinstance(part, _CONTINUOUS) or part in unknowns for part in changing):
         return [sp.false]
@@ -195,7 +196,7 @@ def continuity(
 
 
 def open_set(relation: sp.Basic) -> bool:
-    """Return whether a relation between data holds near wherever it holds."""
+    """Return whether a relation between data holds on an open set."""
     if not isinstance(relation, (sp.StrictGreaterThan, sp.StrictLessThan, sp.Unequality)):
         return False
     goals = (g for side in relation.args for g in continuity(side, side.free_symbols))
@@ -203,15 +204,15 @@ def open_set(relation: sp.Basic) -> bool:
 
 
 def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:
-    """Return whether an expression is differentiable (in some unknowns, or all) where it has a
-    value, roots but at 0."""
+    """Return whether an expression is differentiable (in some unknowns, or all) where it is
+    defined, except for roots at 0."""
     parts = sp.preorder_traversal(expr)
     changing = (part for part in parts if not unknowns or part.has(*unknowns))
     return all(isinstance(part, _SMOOTH) for part in changing)
 
 
 def smooth_everywhere(expr: sp.Expr) -> bool:
-    """Return whether an expression is differentiable whatever the values of its unknowns.
+    """Return whether an expression is differentiable for all values of its unknowns.
 
     >>> y = sp.Symbol("y", real=True)
     >>> [smooth_everywhere(sp.sqrt(y**4 + rest)) for rest in (1, y**2)]
@@ -222,7 +223,7 @@ def smooth_everywhere(expr: sp.Expr) -> bool:
 
 @cache
 def falls(law: sp.Expr) -> bool:
-    """Return whether a contact law ``phi(r)`` is positive and smooth and decreases."""
+    """Return whether a contact law ``phi(r)`` is positive, smooth and decreasing."""
     return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 
 

@@ -1,10 +1,10 @@
-"""Readers: the parts of a claim, or a refusal that names what the theorem asks for.
+"""Readers: the parts of a claim in the form that a theorem needs, or a refusal.
 
 Key results
-    equality, inequality, between               asked of any judgement
-    rate_law, initial_value, limit_in_time      the forms that theorems about time ask for
-    one_integral                                the integral that a theorem changes
-    constant                                    what does not depend on time
+    equality, inequality, between               sides of relations
+    rate_law, initial_value, limit_in_time      parts of claims about time
+    one_integral                                the only integral in an expression
+    constant                                    whether an expression is independent of time
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def functions(expr: sp.Basic) -> set[sp.Expr]:
 
 
 def constant(expr: sp.Basic) -> bool:
-    """Return whether an expression does not depend on time, nor is by an integral or limit."""
+    """Return whether an expression is independent of time, without integrals and limits."""
     moving = expr.has(t) or clocks(expr)
     return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
 
@@ -119,7 +119,7 @@ def clocks(expr: sp.Basic) -> set[sp.Basic]:
 
 
 def _by_clock(expr: sp.Expr) -> bool:
-    """Return whether an expression, but a drift, varies with another clock than time."""
+    """Return whether an expression varies with another clock than time; a drift does not."""
     named = {s.name for s in expr.free_symbols - {t} if not isinstance(s, sp.Dummy)}
     return not isinstance(expr, Drift) and not CLOCKS.isdisjoint(named)
 
@@ -131,10 +131,10 @@ def at_an_instant(expr: sp.Basic) -> sp.Basic:
 
 
 def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
-    """Return an expression with another for a part that equals it at every time.
+    """Return an expression with a part replaced by another that is equal at every time.
 
-    RuleError where that part stands below a variable that is bound there and occurs in either,
-    or below the derivative with respect to a datum: of that the equality says nothing.
+    RuleError if the part is in the scope of a bound variable that occurs in one of them, or inside
+    a derivative with respect to a datum, for which the equality need not hold.
     """
     found = (node for node in sp.preorder_traversal(expr) if node.has(old) and node != old)
     touched = [node for node in found if bound(node)]
@@ -151,8 +151,8 @@ def _slopes(expr: sp.Expr) -> set[sp.Basic]:
     return {d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, LAW)}
 
 
-def require_hypothesis(said: sp.Basic | Hypothesis, *premises: Judgement) -> None:
-    """Raise RuleError unless premises suppose a relation, or what only words say."""
+def require_hypothesis(needed: sp.Basic | Hypothesis, *premises: Judgement) -> None:
+    """Raise RuleError unless premises have a hypothesis, or one with this relation."""
     known = {h for premise in premises for h in premise.hypotheses}
-    if said not in known | {h.relation for h in known}:
-        raise RuleError(f"missing premise: {getattr(said, 'text', said)}")
+    if needed not in known | {h.relation for h in known}:
+        raise RuleError(f"missing premise: {getattr(needed, 'text', needed)}")
