@@ -89,6 +89,7 @@ def equation(identifier: str) -> Equation:
     >>> equation("7c").relation
     Eq(U_c(t), p(t)/k)
     """
+    identifier = str(identifier)  # 21 is "21"
     if identifier in TEXTS:
         return _beyond(identifier) if identifier in _MODULES else _of_the_note()[identifier]
     near = difflib.get_close_matches(identifier, TEXTS, n=3, cutoff=0.5)

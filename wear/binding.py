@@ -60,6 +60,7 @@ def bind_many(scenes: Sequence[Scene]) -> Model:
     UsageError
         if the scenes need different variants.
     """
+    scenes = [as_scene(scene) for scene in scenes]
     if len({scene.variant for scene in scenes}) != 1:
         raise UsageError("scenes that are solved together must model the same things")
     rows = [scene.parameters() for scene in scenes]

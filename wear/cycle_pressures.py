@@ -147,7 +147,8 @@ def _mean(
     last = len(over.edges) - 1
     increment = part.u[:, last] - part.u[:, 0]
     by_wear, by_rule = increment / wear_of_unit, p.nodes @ over.rule.weights @ over.lengths
-    wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
+    with np.errstate(invalid="ignore"):  # an unknown error of no wear
+        wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
     return np.where(wear_error < rule_error, by_wear, by_rule)
 
 

@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.binding import bind
+from wear.faults import Faults
 from wear.fitting.readings import Specimen
 from wear.generated import reaction
 from wear.inside import fields_inside
 from wear.load import Blocks, HistoryLoad
 from wear.numerics.gauss import FloatArray
 from wear.quantities import in_short
+from wear.request import whole_cycles
 from wear.scene import Scene
 
 if TYPE_CHECKING:
@@ -192,11 +194,13 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
     UsageError
         if the load does not repeat, or the scene's cycles cannot be counted.
     """
-    load = scene.periodic_load
+    faults, load = Faults(), scene.periodic_load
+    begin = whole_cycles(cycles, faults)
+    faults.stop_if_any()
     phases = np.union1d(np.linspace(0.0, 1.0, PHASES + 1), load.peaks)
     rows = [
         row
-        for part in fields_inside(bind(scene), load, np.unique(cycles), phases, rtol)
+        for part in fields_inside(bind(scene), load, np.unique(begin), phases, rtol)
         for row in zip(part.cycles, part.fields.p, strict=True)
     ]
     return [

@@ -37,7 +37,7 @@ def whole_cycles(
         if is_number(n) and least <= n <= MOST_CYCLES and n == int(n):
             wanted.append(int(n))
         else:
-            faults.append(f"cycles: {n!r} is no whole number from {least} to 1e12")
+            faults.append(f"cycles: {n!r} is not a whole number from {least} to 1e12")
     if not several:
         faults.append("cycles: give at least one number of cycles")
     return tuple(wanted)
@@ -60,7 +60,7 @@ def wear_depths(wear_mm: float | Iterable[float], faults: Faults) -> tuple[float
         if is_number(depth) and 0.0 <= depth < math.inf:
             depths.append(float(depth))
         else:
-            faults.append(f"wear: {depth!r} is no depth in mm; give a number >= 0")
+            faults.append(f"wear: {depth!r} is not a depth in mm; give a number >= 0")
     return tuple(depths)
 
 
@@ -129,8 +129,8 @@ def checked_request(
     elif method == "collocation" and not is_smooth_history(scene):
         faults.append("method: collocation is for a measured history without cutoff; take auto")
     if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
-        faults.append(f"time_limit: {time_limit!r} is no positive number of seconds")
+        faults.append(f"time_limit: {time_limit!r} is not a positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):
-        faults.append(f"cycles: the load ends after {most_cycles(scene.load)} whole cycles")
+        faults.append(f"cycles: the last whole cycle of the load is {most_cycles(scene.load)}")
     faults.stop_if_any()
     return wanted

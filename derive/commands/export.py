@@ -30,10 +30,7 @@ def execute(options: Options) -> Answer:
 
     folder = Path(options.output)
     lemmas = export.Export(arguments.equations(options.ids))
-    try:
-        lemmas.write(folder)
-    except OSError as fault:
-        raise UsageError(f"--output: {fault}") from fault
+    lemmas.write(folder)
     faults = ""
     if options.check:
         try:

@@ -279,7 +279,7 @@ def test_what_auto_takes_and_what_it_may_be_told() -> None:
     for other in (scene(load, cutoff=True), made()):
         with pytest.raises(UsageError, match="collocation is for a measured history"):
             solve(other, [1], method="collocation")
-    with pytest.raises(UsageError, match="ends after 2 whole cycles"):
+    with pytest.raises(UsageError, match="the last whole cycle of the load is 2"):
         solve(scene(load), [3])
 
 

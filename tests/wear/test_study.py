@@ -193,7 +193,7 @@ def test_another_study_at_the_same_place_is_refused(tmp_path):
     with pytest.raises(UsageError, match=r"another study, which differs in: vary, cycles"):
         study("section4", [f"{GROWTH}=0.1,0.3"], [11], tmp_path / "a.zarr")
     (tmp_path / "b.zarr").mkdir()
-    with pytest.raises(UsageError, match="is no study"):
+    with pytest.raises(UsageError, match="is not a study"):
         study("section4", [f"{GROWTH}=0.1,0.2"], [10], tmp_path / "b.zarr")
     with pytest.raises(UsageError, match="make it first"):
         study("section4", [f"{GROWTH}=0.1,0.2"], [10], tmp_path / "no" / "a.zarr")

@@ -63,8 +63,8 @@ def execute(options: Options) -> Answer:
     if options.posterior is not None and not find_spec("emcee"):
         faults.append("--posterior needs emcee: pip install 'derive-wear[fit]'")
     model = None
-    if options.scene is not None and options.error is not None:
-        asked = (options.free, options.free_each, options.error, options.ignore)
+    if options.scene is not None:
+        asked = (options.free, options.free_each, options.error or ERRORS[0], options.ignore)
         try:
             model = FitModel.of(options.data, options.scene, *asked)
         except UsageError as fault:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wear.faults import Faults
 from wear.fitting import identifiability, laws
 from wear.fitting.estimate import FARTHEST, Estimate
 from wear.fitting.least_squares import descend, estimate
@@ -24,6 +25,7 @@ from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.progress import Pace
+from wear.request import whole_cycles
 from wear.states import notices_of_wear
 
 if TYPE_CHECKING:
@@ -93,7 +95,9 @@ class Fit(Estimate):
 
     def forecast(self, cycles: Sequence[float]) -> list[Forecast]:
         """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
-        specimens, wanted = self.model.specimens, np.array(cycles, dtype=float)
+        faults, specimens = Faults(), self.model.specimens
+        wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
+        faults.stop_if_any()
         level, slope = self.model.log_wear(self.theta[None], [wanted] * len(specimens))
         width = self.quantile * self.spread(slope[0])
         rows = zip(level[0].tolist(), width.tolist(), strict=True)

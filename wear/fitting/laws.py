@@ -17,7 +17,10 @@ from wear.numerics.gauss import FloatArray
 LAWS: dict[str, tuple[Callable[[FloatArray, float], FloatArray], tuple[float, ...]]] = {
     "archard": (lambda cycles, _: np.log(cycles), ()),
     "power": (lambda cycles, power: power * np.log(cycles), (0.5,)),
-    "logarithm": (lambda cycles, rate: np.log(np.log1p(cycles * np.exp(rate))), (-8.0, -2.0, 4.0)),
+    "logarithm": (
+        lambda cycles, rate: np.log(np.logaddexp(0.0, np.log(cycles) + rate)),
+        (-8.0, -2.0, 4.0),
+    ),
 }
 """The logarithm of each law without its scale, and starts of the search for the common number: the
 power, or the logarithm of a rate."""

@@ -17,6 +17,7 @@ from wear.numerics.gauss import FloatArray
 from wear.parameters import no_such_number, parameters_of
 from wear.scene import Scene, as_scene
 from wear.sensitivities import gradients
+from wear.words import are_texts
 
 RTOL = 1e-7  # of the wear: far below any scatter
 MISSING_RESIDUAL = 1e3  # at a point without a scene or without wear
@@ -70,9 +71,9 @@ class FitModel:
         faults."""
         base, faults = as_scene(scene), Faults()
         specimens: tuple[Specimen, ...] = ()
-        shared, single = ([x] if isinstance(x, str) else [*x] for x in (free, free_each))
+        shared, single, dropped = _names(free=free, free_each=free_each, ignore=ignore)
         try:
-            specimens = _specimens(data, ignore)
+            specimens = _specimens(data, dropped)
         except UsageError as fault:
             faults.append(str(fault))
         faults += _faults(base, specimens, shared, single)
@@ -222,6 +223,17 @@ def _specimens(data: Any, ignore: Sequence[str]) -> tuple[Specimen, ...]:
     return specimens
 
 
+def _names(**given: str | Sequence[str]) -> list[list[str]]:
+    """Return lists of names, each of which may be given as one name."""
+    lists = {key: [names] if isinstance(names, str) else names for key, names in given.items()}
+    Faults(
+        f"{key}: {names!r} is not a list of names"
+        for key, names in lists.items()
+        if not are_texts(names)
+    ).stop_if_any()
+    return [list(names) for names in lists.values()]
+
+
 def _faults(
     scene: Scene, specimens: Sequence[Specimen], free: Sequence[str], free_each: Sequence[str]
 ) -> Iterator[str]:
@@ -245,7 +257,7 @@ def _faults(
         try:
             scene.with_(dict(specimen.changes))
         except SceneError as fault:
-            yield f"specimen {specimen.name}: {fault}"
+            yield f"{f'specimen {specimen.name}: ' * bool(specimen.name)}{fault}"
     parameters = len(free) + len(free_each) * len(specimens)
     readings = sum(len(specimen.cycles) for specimen in specimens)
     if specimens and readings < parameters:

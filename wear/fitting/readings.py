@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.faults import MOST_FAULTS_SHOWN, Faults, UsageError
-from wear.load.rows import read_bytes
+from wear.load.rows import UTF_16_MARKS, read_bytes
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.words import is_path, shown
@@ -82,12 +82,12 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
         with all faults of the file.
     """
     if not is_path(path):
-        raise UsageError(f"readings: {path!r} is no name of a file")
+        raise UsageError(f"readings: {path!r} is not the name of a file")
     data = read_bytes(Path(path), MOST_BYTES)
     if isinstance(data, tuple):
         raise UsageError(f"{path}: {'; '.join(data)}")
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-16" if data.startswith(UTF_16_MARKS) else "utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
     delimiter, rows = _from_header(text.splitlines())
@@ -194,8 +194,10 @@ def _specimens(
     for name in dict.fromkeys(names):
         rows_of = np.array([name == other for other in names])
         of = f" of specimen {shown(name)}" if name else ""
-        if np.any(np.diff(cycles[rows_of]) < 0):
-            faults.append(f"the cycles{of} must ascend")
+        faults += [
+            f"{rows[i]}: the cycles{of} decrease; sort the readings"
+            for i in np.flatnonzero(rows_of)[1:][np.diff(cycles[rows_of]) < 0][:1]
+        ]
         changes = {key: values[rows_of] for key, values in numbers.items()}
         faults += [
             f"{key}{of} must be one number"

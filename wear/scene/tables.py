@@ -45,7 +45,7 @@ def _law(raw: object, info: ValidationInfo) -> str:
     if raw.keys() == {"file"} and isinstance(raw["file"], str):
         text = _formula(raw["file"], (info.context or {}).get("folder"))
     elif raw.keys() != {"phi"} or not isinstance(text, str):
-        raise wrong("is no contact law", 'write law = { phi = "..." } or law = { file = "..." }')
+        raise wrong("is not a contact law", 'write law = { phi = "..." } or law = { file = "..." }')
     try:
         return own_laws.named(text)
     except UsageError as fault:

@@ -171,7 +171,7 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
     path = tuple(part.strip() for part in dotted.split("."))
     if not equals or not all(path) or not 1 <= len(path) <= 2:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
-        return Fault(f"--set {shown(option)}", None, "", "", "is no TABLE.KEY=VALUE", remedy)
+        return Fault(f"--set {shown(option)}", None, "", "", "is not TABLE.KEY=VALUE", remedy)
     owner = next((each.place for each in TABLES if each.place and path[0] in each.entries), "")
     if len(path) == 1 and owner:
         remedy = f"did you mean {owner}.{path[0]}?"

@@ -153,7 +153,7 @@ def _faults(design: Design) -> Iterator[str]:
     for name in ("samples", "seed"):
         given = getattr(design, name)
         if not isinstance(given, int | np.integer) or given < 0:
-            yield f"{name}: {given!r} is no whole number from 0 on"
+            yield f"{name}: {given!r} is not a whole number >= 0"
             return
     if design.kind != "grid" and design.samples < 1:
         yield f"samples: a design {design.kind} needs a number of samples"

@@ -67,7 +67,7 @@ def sobol_indices(
     check_executor(executor)
     request = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     if samples < 2 or samples & (samples - 1):
-        raise UsageError(f"samples: {samples} is no power of two")
+        raise UsageError(f"samples: {samples} is not a power of two")
     keys, tally = [each.key for each in request.design.vary], Tally(request)
 
     def wear(points: FloatArray) -> FloatArray:

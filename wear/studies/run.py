@@ -105,7 +105,7 @@ def run(
     from wear.studies.store import Store
 
     if not is_path(output):
-        raise UsageError(f"output: {output!r} is no name of a folder")
+        raise UsageError(f"output: {output!r} is not the name of a folder")
     check_executor(executor)
     store = Store(Path(output), request)
     pace, done = Pace(progress), 0
@@ -153,7 +153,7 @@ def prepare(
     if len(set(wanted)) < len(wanted):
         faults.append("cycles: a number is given twice")
     if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
-        faults.append(f"until_wear: {until_wear!r} is no positive number of mm")
+        faults.append(f"until_wear: {until_wear!r} is not a positive number of mm")
     check_rtol(rtol, faults, least=1e-13)
     faults.stop_if_any()
     assert plan is not None

@@ -126,7 +126,7 @@ class Store:
             group = zarr.open_group(self.path, mode="r+")
             recorded = json.loads(str(group.attrs["study"]))
         except (KeyError, ValueError, OSError) as fault:
-            raise UsageError(f"{self.path}: is there already and is no study") from fault
+            raise UsageError(f"{self.path}: exists and is not a study") from fault
         if recorded != self._identity:
             differ = ", ".join(
                 key for key in self._identity if recorded.get(key) != self._identity[key]

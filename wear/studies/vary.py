@@ -101,7 +101,7 @@ def parse(text: str) -> Vary:
     (1e-08, 1e-05)
     """
     if not isinstance(text, str):
-        raise UsageError(f"vary: {text!r} is no text such as bearing.hardness_MPa=100:300:21")
+        raise UsageError(f"vary: {text!r} is not a text such as bearing.hardness_MPa=100:300:21")
     key, equals, value = (part.strip() for part in text.partition("="))
     if not equals or not key:
         raise UsageError(f"{text!r}: write KEY=VALUES, as in bearing.hardness_MPa=100:300:21")
