@@ -164,7 +164,8 @@ def tornado(keys: Sequence[str], elasticity: FloatArray, cycles: Sequence[int]) 
     """Draw the elasticities (k, n) of the numbers with these keys as bars, the largest on top, a
     set of bars for each of the n numbers of cycles. NaN has no bar."""
     values = np.nan_to_num(elasticity)
-    order = np.argsort(np.max(np.abs(values), axis=1))
+    largest = np.max(np.abs(values), axis=1)
+    order = np.argsort(np.round(largest, 6), kind="stable")  # not by rounding errors
     thick = 0.8 / len(cycles)
     with styled():
         figure, axes = canvas(COLUMN_AND_HALF, 12.0 + (2.5 + 1.8 * len(cycles)) * len(keys))
