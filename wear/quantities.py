@@ -78,7 +78,7 @@ class Column(NamedTuple):
 
 
 COLUMNS: Mapping[str, Column] = {
-    "cycle": Column("number of load cycles that lie behind"),
+    "cycle": Column("number of completed load cycles"),
     "bearing_wear_mm": Column("wear of the bearing", "u_c", "u_c"),
     "pin_wear_mm": Column("wear of the pin", "u_a", "u_a"),
     "bearing_roughness_mm": Column("roughness of the bearing", "sigma_c", r"\sigma_c"),
@@ -101,9 +101,9 @@ COLUMNS: Mapping[str, Column] = {
 """The columns of results, in the order of files and tables."""
 
 
-def columns_of(found: object) -> dict[str, Any]:
+def columns_of(state: object) -> dict[str, Any]:
     """Return by name the columns whose symbols are attributes of an object."""
     values = {
-        name: getattr(found, each.symbol, None) for name, each in COLUMNS.items() if each.symbol
+        name: getattr(state, each.symbol, None) for name, each in COLUMNS.items() if each.symbol
     }
     return {name: each for name, each in values.items() if each is not None}

@@ -42,13 +42,13 @@ ONE_SIDED = (
     "before any wear contact just grazes: the derivatives are those from one side, "
     "on which the wear goes on"
 )
-GENTLE = 0.01  # of the roughness: wear in a cycle that needs no steps within
+SMALL = 0.01  # of the roughness: wear of a cycle that need not be divided
 
 
 class Gradients(NamedTuple):
-    """Of scenes (s,) after cycles (n,): `wear` (s, n) in mm, its `derivative` (s, k, n) with
-    respect to k numbers of the scene, in mm per unit of the key, and the estimated absolute `error`
-    (s, k, n) of that; infinite where the wear could not be computed."""
+    """Sensitivities of scenes (s,) after cycles (n,): `wear` (s, n) in mm, its `derivative`
+    (s, k, n) with respect to k numbers of the scene, in mm per unit of the key, and the estimated
+    absolute `error` (s, k, n) of that; infinite where the wear could not be computed."""
 
     wear: FloatArray
     derivative: FloatArray
@@ -65,7 +65,7 @@ def gradients(
     """Return the wear of scenes of one variant after whole numbers of cycles (n,), and its
     derivatives with respect to the numbers of the scene with these `keys`.
 
-    After two seconds `progress` is told now and then how far the scenes are.
+    After two seconds `progress` is called at intervals with a message.
 
     Raises
     ------
@@ -83,31 +83,31 @@ def gradients(
     scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
-    found = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
+    result = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
     pace, done = Pace(progress), 0
     pace.begin("scene", len(scenes))
-    for which in groups(scenes):
-        some, parts = _in_parts([scenes[i] for i in which.tolist()])
-        part, _ = _of_one_variant(some, keys, cycles * parts, rtol, pace.say)
-        done += len(which)
+    for rows in groups(scenes):
+        group, parts = _divided([scenes[i] for i in rows.tolist()])
+        part, _ = _of_one_variant(group, keys, cycles * parts, rtol, pace.say)
+        done += len(rows)
         pace.at(done)
         per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
-        found.wear[which] = part.u
-        found.derivative[which] = part.derivative * per_key
-        found.error[which] = part.derivative_error * per_key
-    return found
+        result.wear[rows] = part.u
+        result.derivative[rows] = part.derivative * per_key
+        result.error[rows] = part.derivative_error * per_key
+    return result
 
 
-def _in_parts(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
-    """Return scenes under constant loads with their period, which only serves to count, cut into as
-    many parts as leave the first of them little wear; and the number of these."""
+def _divided(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
+    """Return scenes under constant loads with their period, which only counts cycles, divided so
+    that the wear of the first part is small; and the number of parts."""
     if not all(isinstance(scene.load, Constant) for scene in scenes):
         return scenes, 1.0
     parts = 1.0
     for scene in scenes:
         load = scene.periodic_load
         first = float(bind(scene).rate(0.0, load.maximum)) * load.period
-        parts = max(parts, 2.0 ** np.ceil(np.log2(first / (GENTLE * scene.initial_roughness))))
+        parts = max(parts, 2.0 ** np.ceil(np.log2(first / (SMALL * scene.initial_roughness))))
     if parts == 1.0:
         return scenes, parts
     return [scene.with_({PERIOD: scene.periodic_load.period / parts}) for scene in scenes], parts
@@ -117,13 +117,13 @@ def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
     """Raise a `UsageError` that names every key that some scene does not have."""
     known, faults = [parameters_of(scene) for scene in scenes], Faults()
     for key in keys:
-        owner = next((own for own in known if key not in own), None)
-        if owner is not None:
-            faults.append(no_such_number(key, owner))
+        without = next((numbers for numbers in known if key not in numbers), None)
+        if without is not None:
+            faults.append(no_such_number(key, without))
     faults.stop_if_any()
 
 
-@np.errstate(all="ignore")  # trial states far off the solution; what is no number has no digit
+@np.errstate(all="ignore")  # trial states far off the solution; NaN is handled below
 def _of_one_variant(
     scenes: Sequence[Scene],
     keys: Sequence[str],
@@ -131,13 +131,13 @@ def _of_one_variant(
     rtol: float,
     say: Callable[[str], None],
 ) -> tuple[Tangents, BoolArray]:
-    """Return the derivatives of the wear of scenes of one variant, and of which of these contact
-    grazes before any wear; of one alone if its load consists of blocks, of which it tells `say`
-    how far they are."""
+    """Return the derivatives of the wear of scenes of one variant, and whether contact grazes in
+    each before any wear; scenes with blocks of loads come one at a time, and report each block to
+    `say`."""
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
-    found = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
-    start, missed = np.zeros((2, number))
+    result = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
+    start, start_error = np.zeros((2, number))
     slope, slope_error = np.zeros((2, number, len(keys)))
     grazes = np.full(number, False)
     done = 0
@@ -145,40 +145,41 @@ def _of_one_variant(
         acting = [span(scene.load, done) for scene in scenes]
         end = min(float(acting[0].until), last)
         say(f"cycle {done} of {last:.10g}")
-        here = (cycles >= done) & (cycles <= end)
-        wanted = np.tile(np.append(cycles[here], end) - done, (number, 1))
+        within = (cycles >= done) & (cycles <= end)
+        requested = np.tile(np.append(cycles[within], end) - done, (number, 1))
         if scenes[0].contact.ends_at_3_sigma:
-            each = [parametrised(*own, keys) for own in zip(zip(scenes), zip(acting), strict=True)]
-            edges = edges_of_contact([own.model for own in each], [own.loads[0] for own in each])
+            single = [parametrised([s], [load], keys)
+                      for s, load in zip(scenes, acting, strict=True)]  # fmt: skip
+            edges = edges_of_contact([e.model for e in single], [e.loads[0] for e in single])
             if done == 0:
-                grazes[:] = [_grazes(own, edge) for own, edge in zip(each, edges, strict=True)]
-            begins = zip(wanted[:, -1], start, missed, strict=True)
+                grazes[:] = [_grazes(e, edge) for e, edge in zip(single, edges, strict=True)]
+            begins = zip(requested[:, -1], start, start_error, strict=True)
             counts = count_scenes(
                 [
-                    CountRequest(own.model, own.loads[0], edge, *map(float, begin))
-                    for own, edge, begin in zip(each, edges, begins, strict=True)
+                    CountRequest(e.model, e.loads[0], edge, *map(float, begin))
+                    for e, edge, begin in zip(single, edges, begins, strict=True)
                 ],
                 rtol,
             )
             rows = [
-                stage_tangents(*one, wanted[:1], rtol, slope[[i]], slope_error[[i]])
-                for i, one in enumerate(zip(counts, each, edges, strict=True))
+                stage_tangents(*scene, requested[:1], rtol, slope[[i]], slope_error[[i]])
+                for i, scene in enumerate(zip(counts, single, edges, strict=True))
             ]
             part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
         else:
             equation = parametrised(scenes, acting, keys)
-            counted = orbit(equation, wanted[:, -1], rtol, start, missed, keep=True)
-            part = tangents(equation, counted, wanted, rtol, slope, slope_error)
-        for whole, values in zip(found, part, strict=True):
-            whole[..., here] = values[..., :-1]
-        start, missed = part.u[:, -1], part.error[:, -1] * part.u[:, -1]
+            count = orbit(equation, requested[:, -1], rtol, start, start_error, keep=True)
+            part = tangents(equation, count, requested, rtol, slope, slope_error)
+        for array, values in zip(result, part, strict=True):
+            array[..., within] = values[..., :-1]
+        start, start_error = part.u[:, -1], part.error[:, -1] * part.u[:, -1]
         slope, slope_error = part.derivative[..., -1], part.derivative_error[..., -1]
-        if end >= last or not np.isfinite(missed).all():
+        if end >= last or not np.isfinite(start_error).all():
             break
         done = acting[0].until
-    unknown = np.isnan(found.derivative_error)
-    error = np.where(unknown, np.inf, found.derivative_error)
-    return found._replace(derivative_error=error), grazes
+    unknown = np.isnan(result.derivative_error)
+    error = np.where(unknown, np.inf, result.derivative_error)
+    return result._replace(derivative_error=error), grazes
 
 
 def _grazes(equation: WearEquation, edge: Edge) -> bool:

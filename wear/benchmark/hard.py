@@ -96,12 +96,12 @@ def worst(entries: Sequence[Measurement]) -> Measurement:
     )
 
 
-def overview(found: Sequence[Measurement]) -> TextTable:
+def overview(runs: Sequence[Measurement]) -> TextTable:
     """Return the table of scenes against methods."""
-    methods = grouped(found, "method")
+    methods = grouped(runs, "method")
     rows = []
-    for scene, entries in grouped(found, "scene").items():
-        tried = {method: worst(some) for method, some in grouped(entries, "method").items()}
+    for scene, entries in grouped(runs, "scene").items():
+        tried = {method: worst(group) for method, group in grouped(entries, "method").items()}
         rows.append((scene, *(_cell(tried.get(method)) for method in methods)))
     heads = (f"{name}\n{entries[-1].tolerance:g}" for name, entries in methods.items())
     return TextTable("Hard cases", ("scene", *heads), tuple(rows))
@@ -118,12 +118,12 @@ def _cell(entry: Measurement | None) -> str:
     return size if entry.status is Status.MET else f"{size} {entry.status}"
 
 
-def failures(found: Sequence[Measurement]) -> TextTable:
+def failures(runs: Sequence[Measurement]) -> TextTable:
     """Return the table of failures: for each scene and method the worst."""
     rows = []
-    for scene, entries in grouped(found, "scene").items():
-        for method, some in grouped(entries, "method").items():
-            entry = worst(some)
+    for scene, entries in grouped(runs, "scene").items():
+        for method, group in grouped(entries, "method").items():
+            entry = worst(group)
             if entry.status is not Status.MET or not entry.honest:
                 rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
     return TextTable("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
@@ -135,9 +135,9 @@ def _how(entry: Measurement) -> str:
     return f"claims an error of {entry.estimate:.1e}, has one of {abs(entry.error):.1e}"
 
 
-def markdown(found: Sequence[Measurement], footer: str) -> str:
+def markdown(runs: Sequence[Measurement], footer: str) -> str:
     """Return the computed part of the page on hard cases."""
-    table = overview(found)
+    table = overview(runs)
     flat = table._replace(header=tuple(head.replace("\n", " ") for head in table.header))
-    parts = [LEGEND, markdown_table(flat), "**How they fail**", markdown_table(failures(found))]
+    parts = [LEGEND, markdown_table(flat), "**How they fail**", markdown_table(failures(runs))]
     return "\n\n".join([*parts, f"*{footer}*"]) + "\n"

@@ -149,14 +149,14 @@ def _hard(options: Options) -> Answer:
     chosen = [case for case in hard.catalogue() if not options.quick or case.cycles <= 10]
     limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
     facts = machine()
-    found = hard.hard_cases(chosen, limit, terminal.progress)
+    runs = hard.hard_cases(chosen, limit, terminal.progress)
     terminal.progress("")
     if options.output is not None:
-        page = hard.markdown(found, footer(facts))
-        contents = {"hard-cases.csv": csv_text(found), "hard-cases.md": page}
+        page = hard.markdown(runs, footer(facts))
+        contents = {"hard-cases.csv": csv_text(runs), "hard-cases.md": page}
         files.write_all(options.output, contents)
-    lines = (*_tables([hard.overview(found), hard.failures(found)]), hard.LEGEND, footer(facts))
-    document = {"machine": facts, "cases": [entry._asdict() for entry in found]}
+    lines = (*_tables([hard.overview(runs), hard.failures(runs)]), hard.LEGEND, footer(facts))
+    document = {"machine": facts, "cases": [entry._asdict() for entry in runs]}
     return Answer(document, lambda: "\n".join(lines))
 
 

@@ -1,4 +1,4 @@
-"""`wear report`: the report of a scene of one's own.
+"""`wear report`: the report of a scene.
 
 examples:
   wear report scene.toml              into the folder scene-report

@@ -2,7 +2,7 @@
 
 examples:
   wear scenes                                 names and titles
-  wear scenes --describe section4             what it is, and its data
+  wear scenes --describe section4             its description and data
   wear scenes --describe section4 > own.toml  to start a scene of your own
 """
 

@@ -95,7 +95,7 @@ def leg(
             )
         if slack is None and kink is None:
             continue
-        step = _Step(solver.dense_output(), before.phase, float(solver.t), ode.unit)
+        step = _SolverStep(solver.dense_output(), before.phase, float(solver.t), ode.unit)
         side = side or (0.0 if kink is None else step.side(kink))
         kink_phase = None if kink is None else step.first(_scaled(side, kink))
         opened = None if slack is None else step.first(_shifted(slack, ode.margin))
@@ -156,7 +156,7 @@ def _solver(
     )
 
 
-class _Step(NamedTuple):
+class _SolverStep(NamedTuple):
     """A completed step, with its interpolant."""
 
     dense: Callable[[Real], Any]

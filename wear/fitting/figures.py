@@ -26,8 +26,8 @@ _DECADE = 10.0  # ratio of values from which an axis is logarithmic
 
 
 def data_and_band(fit: Fit) -> Figure:
-    """Return the readings of every specimen with the fitted wear and its 95 % band, and below them
-    by how much the readings exceed it."""
+    """Draw the readings of every specimen with the fitted wear and its 95 % band, and below them
+    the excess of the readings."""
     first = min(specimen.cycles[0] for specimen in fit.model.specimens)
     last = min(3.0 * max(specimen.cycles[-1] for specimen in fit.model.specimens), 1e12)
     cycles = np.unique(np.rint(np.geomspace(first, last, _POINTS)))

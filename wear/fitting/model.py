@@ -161,7 +161,7 @@ class FitModel:
         if not scenes:
             return level, slope
         there, many = list(scenes), len(self.specimens)
-        wear, derivative = _gradients([s for own in scenes.values() for s in own], keys, wanted)
+        wear, derivative = _gradients([s for group in scenes.values() for s in group], keys, wanted)
         wear = wear.reshape(len(there), many, -1)
         derivative = derivative.reshape(len(there), many, len(keys), -1)
         scale = np.array(
@@ -170,15 +170,15 @@ class FitModel:
         )  # fmt: skip
         end = 0
         with np.errstate(all="ignore"):
-            for at, (specimen, own) in enumerate(zip(self.specimens, cycles, strict=True)):
-                begin, end = end, end + len(own)
-                column = np.searchsorted(wanted, own)
+            for at, (specimen, counts) in enumerate(zip(self.specimens, cycles, strict=True)):
+                begin, end = end, end + len(counts)
+                column = np.searchsorted(wanted, counts)
                 u = wear[:, at, column]
                 level[there, begin:end] = np.log(u)
                 for i, parameter in enumerate(self.parameters):
                     if parameter.specimen in ("", specimen.name):
-                        own_slope = derivative[:, at, keys.index(parameter.key)][:, column] / u
-                        slope[there, begin:end, i] = scale[i][:, None] * own_slope
+                        relative = derivative[:, at, keys.index(parameter.key)][:, column] / u
+                        slope[there, begin:end, i] = scale[i][:, None] * relative
         return level, slope
 
 

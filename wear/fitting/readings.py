@@ -104,13 +104,13 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
     ]
     if len(set(names)) < len(names):
         faults.append("a column is named twice")
-    found: Specimens = ()
+    specimens: Specimens = ()
     if not faults:
         columns = {name: [row[i] for _, row in body] for i, name in enumerate(names)}
         lines = [f"line {number}" for number, _ in body]
-        found, faults = _specimens(columns, ignore, lines, delimiter)
+        specimens, faults = _specimens(columns, ignore, lines, delimiter)
     Faults(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]).stop_if_any()
-    return found
+    return specimens
 
 
 def readings_of(columns: Mapping[str, Iterable[Any]], ignore: Sequence[str]) -> Specimens:

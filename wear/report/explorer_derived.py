@@ -113,15 +113,15 @@ def _model() -> Iterator[tuple[str, str, Choices]]:
     from derive.variant import VARIANTS
     from derive.variant_equations import equations_of
 
-    found: dict[str, dict[tuple[str, str], list[Mapping[str, str | bool]]]] = {}
+    entries: dict[str, dict[tuple[str, str], list[Mapping[str, str | bool]]]] = {}
     for variant, opening in product(reversed(VARIANTS), (False, True)):
         chosen = {
             "law": variant.law.name, "pin": variant.pin.value, "compliant": variant.compliant,
             "cutoff": variant.ends_at_3_sigma, "opening": opening,
         }  # fmt: skip
         for each in equations_of(variant, opening=opening):
-            found.setdefault(each.id, {}).setdefault((each.title, each.latex), []).append(chosen)
-    for (title, latex), choices in (row for forms in found.values() for row in forms.items()):
+            entries.setdefault(each.id, {}).setdefault((each.title, each.latex), []).append(chosen)
+    for (title, latex), choices in (row for forms in entries.values() for row in forms.items()):
         holds = {n: tuple(dict.fromkeys(each[n] for each in choices)) for n in choices[0]}
         yield capital(title), latex, holds
 

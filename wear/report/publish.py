@@ -63,7 +63,7 @@ def published(document: Document) -> tuple[dict[str, str | bytes], PdfOutcome]:
     sources = tex.report(document)
     drawings = {f"{label[4:]}.svg": figure.svg for label, figure in document.figures.items()}
     contents = {"report.html": html.page(document), **sources, **drawings}
-    with TemporaryDirectory() as name:  # TeX leaves much behind
+    with TemporaryDirectory() as name:  # TeX writes many auxiliary files
         for file, content in sources.items():
             write_atomically(Path(name, file), content)
         outcome = typeset(Path(name, "report.tex"))

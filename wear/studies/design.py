@@ -66,7 +66,7 @@ class Design:
 
     @property
     def chunk_shape(self) -> tuple[int, ...]:
-        """Return the shape of a chunk: whole trailing dimensions as far as `ROWS` go."""
+        """Return the shape of a chunk: whole trailing dimensions within `ROWS`."""
         shape, room = [], ROWS
         for length in reversed(self.shape):
             shape.append(max(1, min(length, room)))
