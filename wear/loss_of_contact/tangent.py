@@ -277,8 +277,8 @@ def _tabulated(
         count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
     )
     wanted = np.minimum(cycles, iterates.reach)
-    by_z, error_of_z, rate = (part[0] for part in after_on_cells(count, sums, wanted[None]))
     at, _ = count.after(wanted[None])
+    by_z, error_of_z, rate = (part[0] for part in after_on_cells(count, sums, wanted[None], at))
     pace = z.rate(at[0], np.ones(1))[:, None]
     rounding = SAFETY * ROUNDOFF * np.abs(limit)
     derivative, error = limit + pace * by_z, pace * error_of_z + rounding

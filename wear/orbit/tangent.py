@@ -86,11 +86,12 @@ def map_derivatives(
     """
     u, over = starts[..., None, None] + run.inside, maps.over
     slope = maps.slope(u)
-    ahead = integral(slope, over)[..., None, None] - running_integral(slope, over)
+    growth = integral(slope, over)
+    ahead = growth[..., None, None] - running_integral(slope, over)
     weights = np.exp(ahead) * (over.lengths[..., None] * over.rule.weights)
     equation = cast(ParametrisedProblem, maps.equation)
     by_parameters = equation.by_parameters(u, over.phases, maps.forcing, weights)
-    return MapDerivatives(np.exp(integral(slope, over)), by_parameters)
+    return MapDerivatives(np.exp(growth), by_parameters)
 
 
 class Sums(NamedTuple):
@@ -114,20 +115,26 @@ def tangents(
     """Return the derivatives of the states that the orbit `found`, iterates to `rtol` with its
     cycles kept, has after `cycles` (s, c), if the first state has the derivative `start`
     (s, parameters), known up to `start_error`."""
-    u, error = found.after(cycles)
     shape = (found.scenes, problem.parameters, cycles.shape[1])
     derivative, missed = np.full(shape, np.nan), np.full(shape, np.inf)
-    increment = np.full(cycles.shape, np.nan)
+    u, increment = np.full((2, *cycles.shape), np.nan)
+    error = np.full(cycles.shape, np.inf)
     onward, onward_error = start.copy(), start_error.copy()
     for segment in found.segments:
         which, since = segment.which, cycles[segment.which] - segment.begins[:, None]
         iterates = cast(Iterates, segment.iterates)
         last = iterates.whole_cycles
         wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
+        state, relative = iterates.after(wanted)
         own, own_error, added = _in_segment(
-            problem.take(which), iterates, wanted, rtol, onward[which], onward_error[which]
+            problem.take(which), iterates, wanted, state, rtol, onward[which], onward_error[which]
         )
         here = (since >= 0)[:, None]
+        relative = relative + segment.start_error[:, None] / (state + TINY)
+        known = np.isfinite(relative[:, :-1]) & (since <= iterates.reach[:, None])
+        u[which] = np.where(here[:, 0], state[:, :-1], u[which])
+        relative = np.where(known, relative[:, :-1], np.inf)
+        error[which] = np.where(here[:, 0], relative, error[which])
         derivative[which] = np.where(here, own[..., :-1], derivative[which])
         missed[which] = np.where(here, own_error[..., :-1], missed[which])
         increment[which] = np.where(here[:, 0], added[:, :-1], increment[which])
@@ -140,12 +147,13 @@ def _in_segment(
     problem: ParametrisedProblem,
     iterates: Iterates,
     cycles: FloatArray,
+    u: FloatArray,
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the derivatives (s, parameters, c) after `cycles` (s, c) since the start of a segment,
-    their error, and the increments of the last cycles (s, c)."""
+    which lead to the states u (s, c), their error, and the increments of the last cycles (s, c)."""
     size = settings(rtol, problem.breakpoints)
     maps = period_map(problem, iterates.edges, size.phase_nodes, ITERATION_TOLERANCE)
     early, early_error = _in_transient(maps, iterates, size, start, start_error)
@@ -158,7 +166,8 @@ def _in_segment(
     if iterates.cells is not None:
         sums = _on_panels(maps, iterates, size, early[:, -1], early_error[:, -1])
         late = cycles > number if number else np.full(cycles.shape, True)
-        far = after_on_cells(iterates, sums, np.maximum(cycles, float(number)))
+        first = iterates.cells.u.reshape(len(u), -1)[:, :1]
+        far = after_on_cells(iterates, sums, np.maximum(cycles, number), np.maximum(u, first))
         derivative = np.where(late[..., None], far[0], derivative)
         missed = np.where(late[..., None], far[1], missed)
         increment = np.where(late, far[2], increment)
@@ -186,12 +195,15 @@ def _in_transient(
     )  # dP/du and dP/dp of every cycle
     state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
     for i in range(k):
-        grown = finer_E[:, i] * found[-1]
-        found.append(grown + finer_D[:, i])
-        apart = np.abs((finer_E[:, i] - E[:, i]) * found[-2]) + np.abs(finer_D[:, i] - D[:, i])
-        size_of = np.abs(grown) + np.abs(finer_D[:, i])
-        error.append(finer_E[:, i] * error[-1] + SAFETY * (apart + state[:, i, None] * size_of))
-    return np.stack(found, axis=1), np.stack(error, axis=1)
+        found.append(finer_E[:, i] * found[-1] + finer_D[:, i])
+    values = np.stack(found, axis=1)
+    before, grown = values[:, :-1], finer_E * values[:, :-1]
+    apart = np.abs((finer_E - E) * before) + np.abs(finer_D - D)
+    size_of = np.abs(grown) + np.abs(finer_D)
+    missed = SAFETY * (apart + state[..., None] * size_of)
+    for i in range(k):
+        error.append(finer_E[:, i] * error[-1] + missed[:, i])
+    return values, np.stack(error, axis=1)
 
 
 def _of_cycles(
@@ -310,9 +322,10 @@ def _at_cells(
 
 
 def after_on_cells(
-    iterates: Iterates, sums: Sums, cycles: FloatArray
+    iterates: Iterates, sums: Sums, cycles: FloatArray, states: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, its error, and du/dn."""
+    """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, which lead to the
+    `states` (s, c), its error, and du/dn."""
     table, panels = iterates.cells, iterates.panels
     assert table is not None
     assert panels is not None
@@ -320,7 +333,7 @@ def after_on_cells(
     begins = table.cycles.reshape(scenes, -1)
     cell = np.stack([cell_of(*pair) for pair in zip(begins, cycles, strict=True)])
     flat = (cell + of_scene * np.arange(scenes)[:, None]).ravel()
-    u, _ = table.state_after(cycles.ravel(), flat)
+    u = states.ravel()
     x = np.log1p((u - table.u[flat]) / table.offset[flat]) / table.length[flat]
     rule = gauss(NODES)
     beside = np.where(x < 0.5, x + BESIDE, x - BESIDE)
