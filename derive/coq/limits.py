@@ -82,7 +82,10 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
 
 
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
-    """Return the expression in terms of quantities with known limits, for Coq, and its limit."""
+    """Return the expression in terms of quantities with known limits, for Coq, and its limit.
+
+    If it has none, it should be the quantity of the first limit, in other terms.
+    """
     for other in step.frontier:
         relation = other.relation
         if other.equates and not relation.has(sp.Limit) and other.timed:
@@ -97,12 +100,15 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
             infinite = value == sp.oo
             text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"
             replaced = in_terms_of(inside, quantity, 1 / stand_in if infinite else stand_in)
-            if replaced != inside:
+            if replaced.has(stand_in):
                 inside, texts[stand_in.name], values[stand_in] = (
                     replaced,
                     text,
                     sp.S.Zero if infinite else value,
                 )
+    if step.limits and not texts:
+        known, value = step.limits[0].relation.args
+        return term(known.args[0]), value
     composed = term(inside)
     for name, text in texts.items():
         composed = composed.replace(name, text)

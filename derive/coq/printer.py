@@ -11,6 +11,7 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 
 import sympy as sp
@@ -22,11 +23,15 @@ from ..symbols import QUANTITIES, symbol, t
 
 tau = symbol("tau")
 
-_TAKEN = frozenset("RCISONEtl") | {"fun", "forall", "exists", "let", "in", "if", "then", "else"}
 _FUNCTIONS = {
     sp.tanh: "tanh", sp.exp: "exp", sp.log: "ln", sp.Abs: "Rabs", sp.cos: "cos", sp.sin: "sin",
     sp.Min: "Rmin", sp.Max: "Rmax",
 }  # fmt: skip
+_WORDS = (
+    "phi PI Rpower sqrt Rle_dec tends diverges continuous ex_derive Derive RInt "
+    "fun forall exists let in if then else"
+)
+_TAKEN = frozenset((*"RCISONEtl", *_FUNCTIONS.values(), *_WORDS.split()))
 _RELATIONS = {
     sp.Equality: "{} = {}", sp.Unequality: "{} <> {}", sp.LessThan: "{} <= {}",
     sp.StrictLessThan: "{} < {}", sp.GreaterThan: "{1} <= {0}", sp.StrictGreaterThan: "{1} < {0}",
@@ -47,10 +52,22 @@ def name(text: str) -> str:
     return f"{plain}_" if plain in _TAKEN else plain
 
 
+def distinct(expressions: Iterable[sp.Basic]) -> None:
+    """Refuse quantities and bound variables of which Coq could not tell one from another."""
+    atoms = set().union(*(e.atoms(sp.Symbol, AppliedUndef) for e in expressions)) - {t}
+    named: dict[str, sp.Basic | type] = {}
+    for atom in atoms:
+        text, meant = (field(atom), atom.func) if atom.args else (binder(atom), atom)
+        if named.setdefault(text, meant) != meant:
+            raise UntranslatableError(f"{named[text]} and {meant} would both be {text}")
+
+
 def field(expr: AppliedUndef) -> str:
     """Return the name of a function; one outside the vocabulary may share a symbol's name."""
     text = expr.func.__name__
-    return name(text) if text in QUANTITIES or text == "phi" else f"{name(text)}_of"
+    if text == "phi":
+        return text
+    return name(text) if text in QUANTITIES else f"{name(text)}_of"
 
 
 def binder(variable: sp.Symbol) -> str:

@@ -17,20 +17,21 @@ from pathlib import Path
 
 from ..catalogue import all_equations
 from .export import HEAD, Export, compiled
-from .steps import RECORD, Row, Step, record
+from .steps import RECORD, Row, Step
 
 _FOLDER = Path("build/prove")
 _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default Timeout 30.\n"
 """The time limits are in seconds, for one sentence of a proof; each of several tactics has 12."""
 
 
-def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
+def attempt(before: Export, hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
     """Try the steps ``hoped`` for; return the new record and those to try again.
 
-    These failed in a proof that cites another failed step.
+    These failed in a proof that cites a step which was taken as closed and is open now.  It is
+    not cited again, so that repeated attempts end.
     """
-    hopeful: dict[str, Row] = known | {h: {"closed": True} for h in hoped}
-    before = Export(all_equations(), known)
+    known = before.known
+    hopeful: dict[str, Row] = {**known, **{h: {"closed": True} for h in hoped}}
     export = Export(before.equations, hopeful)
     texts = {}
     for step in export.steps:
@@ -43,6 +44,7 @@ def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set
         texts[step.name] = f"{text}Abort All.\nLocate {step.name}.\n"
     output = _session(export, "".join(texts.values()))
     closed = set(re.findall(r"Constant Top\.(step_\w+)", output))
+    lost = {s.name for s in export.steps if s.closed} - closed
     ways = {name: int(way) for name, way in re.findall(r"WAY (step_\w+) (\d+)", output)}
     rows: dict[str, Row] = {}
     again = set()
@@ -54,7 +56,7 @@ def attempt(known: dict[str, Row], hoped: set[str]) -> tuple[dict[str, Row], set
             new["way"] = hopeful[step.key]["way"]
         if not new["closed"]:
             new["reason"] = "no tactic of the exporter closes it"
-            if set(re.findall(r"step_\w+", texts[step.name])) - closed - {step.name}:
+            if lost & (set(re.findall(r"step_\w+", texts[step.name])) - {step.name}):
                 again.add(step.key)
         rows[step.key] = new
     return rows, again & hoped
@@ -83,11 +85,12 @@ def _session(export: Export, lemmas: str) -> str:
 
 def main() -> None:
     """Try the open steps until no new one can be cited, and write the record."""
-    rows = dict(record())
-    steps = Export(all_equations(), rows).steps
-    hoped = {s.key for s in steps} - {h for h, row in rows.items() if row["closed"]}
+    export = Export(all_equations())
+    rows = dict(export.known)
+    hoped = {s.key for s in export.steps if not s.closed}
     while hoped:
-        rows, hoped = attempt(rows, hoped)
+        rows, hoped = attempt(export, hoped)
+        export = Export(export.equations, rows)
     lines = ",\n".join(f'"{key}": {json.dumps(rows[key])}' for key in sorted(rows))
     RECORD.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
     print(f"{sum(row['closed'] for row in rows.values())} of {len(rows)} steps closed")

@@ -164,7 +164,12 @@ def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
 
 
 def world(relations: list[sp.Basic]) -> str:
-    """Return the record of all quantities that occur, with the type of each."""
+    """Return the record of all quantities that occur, with the type of each, and a world that
+    differs in the wear.
+
+    UntranslatableError where two of them would have one name.
+    """
+    printer.distinct(relations)
     fields = {"law": "> contact_law"}
     for relation in relations:
         bound = {v for e in relation.atoms(sp.Derivative, sp.Integral) for v in e.variables}
@@ -175,4 +180,6 @@ def world(relations: list[sp.Basic]) -> str:
                 fields.setdefault(printer.name(str(symbol)), " R")
     fields.pop("phi", None)
     rows = ";\n".join(f"  {name} :{kind}" for name, kind in sorted(fields.items()))
-    return f"Class world := {{\n{rows}\n}}.\n"
+    same = "; ".join(f"{name} := {name}" for name in sorted(fields))
+    another = f"Definition with_wear {{w : world}} (u_c : R -> R) : world := {{| {same} |}}.\n"
+    return f"Class world := {{\n{rows}\n}}.\n{another}"

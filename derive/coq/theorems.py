@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..rules.growth import expanded
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..rules.solutions import Integrated
@@ -73,6 +74,21 @@ def _diverges(step: Step) -> Holes:
     return {"growth": growth, "start": start, "slope": slope, "speed": growth.relation.lts / t}
 
 
+def _unbounded(step: Step) -> Holes:
+    u, rate = step.relation.lhs.args[0], step.parents[0].relation.rhs
+    bound = next(s for s in step.frontier if isinstance(getattr(s.relation, "lts", 0), sp.Abs))
+    wear, load = symbol("u_s"), sp.Symbol("load", real=True)
+    of_data = [s for s in step.frontier if not any(p.timed for p in s.statement.premises)]
+    elsewhere = f" (with_wear (fun _ => {binder(wear)}))"
+    always = [
+        (s.relation.xreplace({u: wear}), "@" + step.cited(s).replace(s.name, s.name + elsewhere))
+        for s in of_data
+        if s.timed
+    ]
+    flat = rate.xreplace({u: wear, bound.relation.lts.args[0]: load})
+    return {"wear": wear, "load": load, "rate": flat, "bound": bound, "always": always}
+
+
 def _accumulates(step: Step) -> Holes:
     return {"limit": next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)}
 
@@ -89,8 +105,8 @@ class _Affine:
     """An expression c0 + c1 L in a load, which is U_a, or U_a - U_c on a compliant support."""
 
     load: str
-    c0: str
-    c1: str
+    c0: sp.Expr
+    c1: sp.Expr
 
     @property
     def function(self) -> str:
@@ -98,7 +114,7 @@ class _Affine:
         return "U_a" if self.load == "U_a t" else f"(fun t => {self.load})"
 
     def __str__(self) -> str:
-        return f"({self.c0} + ({self.c1}) * ({self.load}))"
+        return f"({term(self.c0)} + ({term(self.c1)}) * ({self.load}))"
 
 
 def _affine(expr: sp.Expr) -> _Affine | None:
@@ -108,22 +124,22 @@ def _affine(expr: sp.Expr) -> _Affine | None:
         inside = sp.expand(expr.xreplace({_LOAD: value}))
         slope = sp.diff(inside, flat)
         if not inside.has(t) and not slope.has(flat):
-            return _Affine(load, term(inside.subs(flat, 0)), term(slope))
+            return _Affine(load, inside.subs(flat, 0), slope)
     return None
 
 
-def _bounded_load(step: Step) -> Holes | None:
-    if step.relation.rhs != 0:
-        return None
-    claimed = step.relation.lhs.args[0]
-    inside = sp.together(claimed)
-    below = (1 / p for p in sorted(claimed.atoms(sp.Pow), key=sp.default_sort_key))
-    size = next((d for d in below if d.is_Add and sp.diff(d, _WEAR).is_Symbol), None)
-    affine = _affine(sp.cancel(inside * size)) if size is not None else None
-    if size is None or affine is None:
-        return None
-    start, slope = size.subs(_WEAR, 0), sp.diff(size, _WEAR)
-    return {"size": size, "start": start, "slope": slope, "affine": affine}
+def _at_infinity(step: Step) -> Holes | None:
+    """Return A and B of ``u A(1/u) + load B(1/u)``, or exponentials that vanish."""
+    inside, u = step.relation.lhs.args[0], step.diverging.relation.lhs.args[0]
+    z = sp.Symbol("z", positive=True)
+    affine = _affine(inside.xreplace({u: 1 / z}))
+    if affine is not None:
+        (n, level), (m, slope) = expanded(affine.c0, z), expanded(affine.c1, z)
+        return {"u": u, "affine": affine, "z": z, "A": z ** (1 - n) * level, "B": z**-m * slope}
+    falling = sorted((e for e in inside.atoms(sp.exp) if e.has(u)), key=sp.default_sort_key)
+    exponents = {e: sp.expand(e.args[0]) for e in falling}
+    parts = {e: (-sp.diff(x, u), _affine(x.subs(u, 0))) for e, x in exponents.items()}
+    return {"u": u, "parts": parts, "affine": next(iter(parts.values()))[1]}
 
 
 def _first_order(step: Step) -> Holes | None:
@@ -198,7 +214,7 @@ def _nothing(_: Step) -> Holes:
 
 _HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
     "Accumulates": _accumulates,
-    "AtInfinity": _bounded_load,
+    "AtInfinity": _at_infinity,
     "Differentiate": _nothing,
     "Differentiated": _derivative,
     "Diverges": _diverges,
@@ -212,6 +228,7 @@ _HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
     "OnePeriodLater": _nothing,
     "Separate": _separates,
     "Threshold": _threshold,
+    "Unbounded": _unbounded,
     "Vanishes": _squeezed,
 }
 """What the proofs need, by the name of the rule, or of what is claimed."""

@@ -8,14 +8,14 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
-from derive.coq import export, printer, refutations
-from derive.coq.statements import statement
+from derive.coq import export, printer, prove, refutations
+from derive.coq.statements import statement, world
 from derive.coq.steps import proved_by_coq, record
 from derive.symbols import symbols, t
 from tests.derive.judgements import eq
 from tests.programs import ended
 
-h, sigma, p_max, U_a, f_c = symbols("h sigma p_max U_a f_c")
+h, sigma, p, p_max, U_a, f_c = symbols("h sigma p p_max U_a f_c")
 
 REQUIRED = ("8", "9", "10", "13", "14", "15", "17a", "17b", "18", "21", "22")
 
@@ -57,6 +57,36 @@ def test_what_the_library_lacks_is_named():
 def test_the_slope_of_a_name_without_a_function_has_no_statement():
     with pytest.raises(printer.UntranslatableError, match="no function"):
         statement(eq(symbols("q")[0], sp.Derivative(p_max, symbols("k")[0])))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (sp.Symbol("x_of"), sp.Function("x")(t)),
+        (symbols("C")[0], sp.Symbol("C_")),
+        (sp.Symbol("a"), sp.Dummy("a")),
+        (sp.Symbol("p"), p),
+    ],
+)
+def test_two_quantities_of_one_name_are_refused(one, other):
+    with pytest.raises(printer.UntranslatableError, match=f"both be {printer.name(str(one))}"):
+        world([sp.Eq(one, other)])
+
+
+def test_no_quantity_has_a_name_of_the_library():
+    assert printer.name("tanh") == "tanh_"
+    assert printer.name("tends") == "tends_"
+
+
+def test_attempts_end_where_coq_closes_nothing(monkeypatch):
+    monkeypatch.setattr(prove, "_session", lambda *_: "")
+    made = export.Export((catalogue.equation("logarithmic-wear"),))
+    assert "Discharge" in {step.rule for step in made.steps}
+    hoped = {step.key for step in made.steps if step.rule == "Discharge"}
+    for _ in made.steps:
+        rows, hoped = prove.attempt(made, hoped)
+        made = export.Export(made.equations, rows)
+    assert not hoped
 
 
 def test_a_statement_has_the_hypotheses_as_premises():

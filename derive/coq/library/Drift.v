@@ -35,6 +35,23 @@ Proof.
   pose proof (Ha t); pose proof (Rabs_pos (e t)); nra.
 Qed.
 
+(** What is, for u > 0, [u A(1/u) + a B(1/u)] with bounded a, with A(0) = 0 and B(0) = 0, where
+    u -> oo: it tends to A'(0). *)
+Lemma at_infinity (u a A B f : R -> R) (l b : R) : diverges u ->
+  (forall t, 0 <= t -> Rabs (a t) <= b) -> is_derive A 0 l -> A 0 = 0 -> continuous B 0 ->
+  B 0 = 0 -> (forall t, 0 <= t -> 0 < u t -> f t = u t * A (/ u t) + a t * B (/ u t)) -> tends f l.
+Proof.
+  intros Hu Ha HA A0 HB B0 Hf; pose proof (tends_inv_diverges _ Hu) as Z.
+  destruct (chord A 0 l HA) as [G [HG [G0 E]]].
+  pose proof (passes _ B 0 Z HB) as V; rewrite B0 in V.
+  pose proof (passes _ G 0 Z HG) as W; rewrite G0 in W.
+  pose proof (tends_plus _ _ _ _ W (bounded_vanishes a _ b Ha V)) as P.
+  rewrite Rplus_0_r in P; revert P; apply is_lim_ext_loc.
+  destruct (proj1 (diverges_iff u) Hu 0) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
+  pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0); assert (0 < u t) by (apply H; lra).
+  specialize (E (/ u t)); rewrite A0, !Rminus_0_r in E; rewrite Hf, E by lra; field; lra.
+Qed.
+
 (** What is affine in a bounded load is bounded. *)
 Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
   forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.

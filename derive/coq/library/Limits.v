@@ -159,6 +159,32 @@ Proof.
   exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
 Qed.
 
+(** A rate F(u, a) that is at least F(u, w), which is positive and smooth in u: were u bounded,
+    then F(u, w) would have a least value on what u takes. *)
+Lemma unbounded (u a : R -> R) (F : R -> R -> R) (w : R) : (forall t, 0 <= t -> ex_derive u t) ->
+  (forall t, 0 <= t -> Derive u t = F (u t) (a t)) ->
+  (forall t, 0 <= t -> F (u t) w <= F (u t) (a t)) -> (forall x, 0 < F x w) ->
+  (forall x, ex_derive (fun x => F x w) x) -> diverges u.
+Proof.
+  rewrite diverges_iff; intros Hu Hr Hw Hp Hc m; set (G := fun x => F x w) in *.
+  destruct (continuity_ab_min G (u 0) (Rmax (u 0) m)) as [x [Hx _]].
+  - apply Rmax_l.
+  - intros; apply continuity_pt_filterlim, (ex_derive_continuous G), Hc.
+  - assert (I : forall s t, 0 <= s <= t -> u s <= u t).
+    { intros s t [Hs [Ht | ->]]; [| lra].
+      destruct (mean_value u s t) as [c [H E]]; [lra | assumption |].
+      specialize (Hr c); specialize (Hw c); specialize (Hp (u c)); nra. }
+    assert (P : 0 < G x) by apply Hp; exists (Rmax 0 ((m - u 0) / G x)); intros t Ht.
+    pose proof (Rmax_l 0 ((m - u 0) / G x)); pose proof (Rmax_r 0 ((m - u 0) / G x)).
+    assert (Q : m - u 0 < t * G x) by (apply Rlt_div_l; lra).
+    destruct (Rlt_or_le m (u t)) as [| L]; [assumption | exfalso].
+    destruct (mean_value u 0 t) as [c [H' E]]; [lra | assumption |].
+    assert (G x <= G (u c)).
+    { apply Hx; split; [apply I; lra | eapply Rle_trans; [| apply Rmax_r]].
+      eapply Rle_trans; [apply (I c t); lra | exact L]. }
+    specialize (Hr c); specialize (Hw c); unfold G in *; nra.
+Qed.
+
 (** A rate that tends to R: the wear of one period tends to R T. *)
 Lemma accumulates (u : R -> R) r T : 0 < T -> (forall t, 0 <= t -> ex_derive u t) ->
   tends (Derive u) r -> tends (fun t => u (t + T) - u t) (r * T).
@@ -206,4 +232,19 @@ Proof.
   replace ((g (t + del / 2) + - g (t + del / 2) - (g t + - g t)) / (del / 2) - (a + - b))
     with (- (a - b)) in B by (field; lra).
   rewrite Rabs_Ropp in B; assert (Rabs (a - b) < Rabs (a - b)) by (apply B; lra); lra.
+Qed.
+
+(** An exponential of what falls below all bounds. *)
+Lemma exp_vanishes (u a : R -> R) (c b : R) : 0 < c -> diverges u ->
+  (forall t, 0 <= t -> Rabs (a t) <= b) -> tends (fun t => exp (a t - c * u t)) 0.
+Proof.
+  intros Hc Hu Ha; apply (is_lim_comp exp (fun t => a t - c * u t) p_infty 0 m_infty is_lim_exp_m).
+  - apply (is_lim_ext (fun t => - (c * u t - a t))); [intros; ring |].
+    apply (is_lim_opp (fun t => c * u t - a t) p_infty p_infty).
+    fold (diverges (fun t => c * u t - a t)); rewrite diverges_iff in *; intros m.
+    destruct (Hu ((m + b) / c)) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
+    pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
+    assert (Q : (m + b) / c < u t) by (apply H; lra); apply Rlt_div_l in Q; [| assumption].
+    specialize (Ha t); apply Rabs_le_between in Ha; lra.
+  - exists 0; intros; discriminate.
 Qed.

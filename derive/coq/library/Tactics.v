@@ -80,6 +80,12 @@ Proof.
     apply Rle_div_l; [apply P | apply H].
 Qed.
 
+Lemma root_scaled (a x : R) : 0 < a -> sqrt (x / a ^ 2) = sqrt x / a.
+Proof.
+  intro H; unfold Rdiv; rewrite Rmult_comm, sqrt_mult_alt; [| left; apply Rinv_0_lt_compat, pow_lt, H].
+  rewrite sqrt_inv, sqrt_pow2 by (try apply pow_lt; lra); ring.
+Qed.
+
 Lemma sign_of {x e : R} : 0 < x -> x = e -> 0 < e.
 Proof. intros H <-; exact H. Qed.
 
@@ -153,7 +159,8 @@ Ltac arithmetic := first [lra | below_logarithm | bounds; solve [lra | positive 
 
 Ltac same_argument :=
   solve [reflexivity | ring | unfold Rdiv; rewrite ?Rinv_mult; ring | field; positive
-    | do 2 f_equal; field; positive].
+    | do 2 f_equal; field; positive
+    | match goal with E : _ * _ = _ |- _ => field_simplify_eq; [lra | positive] end].
 
 Ltac same_under f :=
   match goal with
@@ -216,6 +223,12 @@ Ltac roots :=
       match goal with H : _ 0 ?y |- _ => replace (sqrt x) with y
         by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end
   | match goal with |- sqrt _ = Rabs _ => rewrite <- sqrt_Rsqr_abs; f_equal; unfold Rsqr; ring end ].
+
+(** Roots of what differs by the square of a factor a > 0. *)
+Ltac same_roots a :=
+  repeat match goal with |- context [sqrt ?x] => match goal with |- context [sqrt ?y] =>
+    tryif constr_eq x y then fail else
+      replace (sqrt y) with (sqrt x / a) by (rewrite <- root_scaled; [f_equal; field; lra | lra]) end end.
 
 (** The square of a root. *)
 Ltac square_of_root :=
@@ -301,6 +314,21 @@ Ltac increasing :=
   | |- _ + ?c < _ + ?c => apply Rplus_lt_compat_r; increasing
   | |- _ / _ < _ / _ => apply Rmult_lt_compat_l; [positive | increasing]
   | |- _ => assumption
+  end.
+
+(** The goal [f a <= f b] for a function that is seen not to decrease. *)
+Ltac nondecreasing :=
+  match goal with
+  | |- ?a <= ?a => apply Rle_refl
+  | |- tanh _ <= tanh _ => apply tanh_order; nondecreasing
+  | |- ?c + _ <= ?c + _ => apply Rplus_le_compat_l; nondecreasing
+  | |- _ + ?c <= _ + ?c => apply Rplus_le_compat_r; nondecreasing
+  | |- _ - ?c <= _ - ?c => apply Rplus_le_compat_r; nondecreasing
+  | |- ?c - _ <= ?c - _ => apply Rplus_le_compat_l, Ropp_le_contravar; nondecreasing
+  | |- ?c * _ <= ?c * _ => apply Rmult_le_compat_l; [positive | nondecreasing]
+  | |- _ / ?c <= _ / ?c =>
+      apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat; positive | nondecreasing]
+  | |- _ => lra
   end.
 
 Ltac same_as_known :=
