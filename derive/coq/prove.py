@@ -27,8 +27,8 @@ _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default T
 def attempt(before: Export, hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
     """Try the steps ``hoped`` for; return the new record and those to try again.
 
-    These failed in a proof that cites a step which was taken as closed and is open now.  It is
-    not cited again, so that repeated attempts end.
+    These cite a step that was taken as closed and is open now.  Of such steps, those that cite
+    none are not tried again, so that repeated attempts end.
     """
     known = before.known
     hopeful: dict[str, Row] = {**known, **{h: {"closed": True} for h in hoped}}
@@ -49,17 +49,18 @@ def attempt(before: Export, hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
     rows: dict[str, Row] = {}
     again = set()
     for step in export.steps:
-        new: Row = {"rule": step.rule, "closed": step.name in closed}
+        retried = lost & (set(re.findall(r"step_\w+", texts[step.name])) - {step.name})
+        new: Row = {"rule": step.rule, "closed": step.name in closed and not retried}
         if step.name in ways:
             new["way"] = ways[step.name]
         elif "Admitted." in texts[step.name] and "way" in hopeful.get(step.key, {}):
             new["way"] = hopeful[step.key]["way"]
         if not new["closed"]:
             new["reason"] = "no tactic of the exporter closes it"
-            if lost & (set(re.findall(r"step_\w+", texts[step.name])) - {step.name}):
-                again.add(step.key)
+        if retried:
+            again.add(step.key)
         rows[step.key] = new
-    return rows, again & hoped
+    return rows, again
 
 
 def _lemma(export: Export, step: Step, row: Row) -> str:
