@@ -141,7 +141,7 @@ def _executor(scheduler: str | None, workers: int) -> AbstractContextManager[Exe
 
 @contextmanager
 def _cluster(address: str) -> Iterator[Executor]:
-    """Give the workers of a running Dask scheduler."""
+    """Provide the workers of a running Dask scheduler."""
     from wear.faults import UsageError
 
     try:

@@ -18,7 +18,7 @@ from wear.numerics.tolerances import ROUNDOFF
 
 MOST_HARMONICS = 100
 Coefficients = Annotated[tuple[float, ...], Numbers(MOST_HARMONICS)]
-FEW = 2  # harmonics: so many cost less as a polynomial
+FEW_HARMONICS = 2  # from which the polynomial is faster than the sum
 SLOPE_ROUNDOFF = 8 * ROUNDOFF  # of the slope's terms, each times its order
 
 
@@ -47,7 +47,7 @@ class Harmonics(Smooth):
         return found
 
     def terms(self) -> FloatArray:
-        """Rows j, cosine_j, sine_j of the harmonics."""
+        """Return the rows j, cosine_j, sine_j of the harmonics."""
         terms = np.zeros((3, max(len(self.cosine_mm), len(self.sine_mm))))
         terms[0] = np.arange(1, terms.shape[1] + 1)
         terms[1, : len(self.cosine_mm)] = self.cosine_mm
@@ -79,7 +79,7 @@ class Harmonics(Smooth):
 
     @cached_property
     def _turning_points(self) -> FloatArray:
-        """Phases of zero slope (and perhaps a few more), in [0, 1), increasing, never empty."""
+        """Return phases in [0, 1), increasing, that contain those of zero slope; at least one."""
         return _zeros(derivative(self.terms()))
 
 
@@ -116,9 +116,9 @@ def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArr
 
 
 def _polynomial(terms: FloatArray, phase: FloatArray) -> FloatArray:
-    """Return the same to a few roundoffs times the highest order, and faster where there are many:
-    the real part of a polynomial in exp(2 pi i phase), by Horner's rule."""
-    if terms.shape[1] < FEW:
+    """Return the trigonometric sum to a few roundoffs times the highest order: the real part of a
+    polynomial in exp(2 pi i phase), by Horner's rule, which is faster for many harmonics."""
+    if terms.shape[1] < FEW_HARMONICS:
         return _trigonometric_sum(terms, phase)
     turn = 2.0 * math.pi * centred(phase)
     wave = np.empty(turn.shape, dtype=complex)
@@ -137,13 +137,13 @@ def derivative(terms: FloatArray) -> FloatArray:
 
 
 def _zeros(terms: FloatArray) -> FloatArray:
-    """Phases in [0, 1), increasing, among which are the zeros of a trigonometric sum without mean.
+    """Return phases in [0, 1), increasing, that contain the zeros of a zero-mean trigonometric sum.
 
     With z = exp(2 pi i phase) the sum is a polynomial of degree 2n in z over z^n, and its zeros are
     the roots on the unit circle. The roots come from the companion pencil, which stays accurate
     when the leading coefficient is small; Newton's iteration brings the simple ones to roundoff.
     Multiple roots leave the circle by a root of the roundoff, so a wide ring is kept: a phase too
-    many does no harm where extremes are looked for.
+    many does no harm where extremes are sought.
     """
     size = np.max(np.abs(terms[1:]), initial=0.0)
     if size == 0.0:
@@ -164,7 +164,7 @@ def _zeros(terms: FloatArray) -> FloatArray:
 
 
 def _roots(coefficients: NDArray[np.complex128]) -> tuple[NDArray[np.complex128], ...]:
-    """The roots alpha/beta of a polynomial, its highest power first."""
+    """Return the roots alpha/beta of a polynomial, its highest power first."""
     from scipy.linalg import eigvals  # takes longer to import than all else here
 
     degree = len(coefficients) - 1
