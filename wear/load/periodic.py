@@ -63,9 +63,12 @@ class Smooth(SceneTable):
 
 
 def centred(phase: FloatArray | float) -> FloatArray:
-    """Return phase minus the nearest integer: exact for every float, so that no period is lost."""
+    """Return phase minus the nearest integer, in (-1/2, 1/2]: exact for every float, so that no
+    period is lost."""
     given = np.asarray(phase, dtype=np.float64)
-    return given - np.rint(given)
+    near_zero: FloatArray = given - np.rint(given)
+    near_zero += near_zero == -0.5
+    return near_zero
 
 
 def within_cycle(phase: FloatArray | float) -> FloatArray:
