@@ -17,7 +17,7 @@ from tests.wear.test_cycle_cutoff import loads, supported, with_load
 from wear import cycles as count
 from wear.binding import bind
 from wear.faults import AccuracyError
-from wear.load import Sine, Table
+from wear.load import Harmonics, Sine, Table
 from wear.loss_of_contact.increments import Coordinate, IncrementSeries, SeriesDomain
 from wear.regime import asymptote
 from wear.scene import Scene, load_scene
@@ -105,6 +105,16 @@ def test_a_series_goes_on_to_a_limit_wear_without_its_rounding():
     left = limit - count.sweep([scene], cycles, 1e-13).u_c[0]
     falls = -np.diff(np.log(left)) / np.diff(cycles)
     assert falls == pytest.approx(falls[0], rel=1e-4)
+
+
+def test_at_a_flat_peak_the_approach_to_the_limit_wear_has_its_error():
+    """There the increments fall like d^(5/4), which is no power of the series' coordinate."""
+    flat = Harmonics(-3.9e-4, (9.7e-4, -2.425e-4), (), 0.06)
+    scene = made(
+        5e-9, 0.0, flat, roughness=5.5e-4, closure=1.46e-4, law="exponential", k=1850.0, cutoff=True
+    )
+    coarse, fine = (count.sweep([scene], [10**8, 10**9, 10**10], rtol) for rtol in (1e-5, 1e-13))
+    assert honest(coarse.u_c, coarse.error, fine.u_c, fine.error)
 
 
 def test_a_grazing_wear_that_rounding_hides_ends_the_series_before_it():

@@ -267,7 +267,8 @@ def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
 
 def _to_limit(known: IncrementSeries) -> IncrementSeries:
     """Return the panel from w = 0 to the first one: its series, extrapolated by the first terms of
-    Taylor's expansion, as far as these exceed their error by the misfit."""
+    Taylor's expansion, as far as these exceed their error by the misfit; the one at which that
+    ends, at w = 0, is the error of the extrapolation."""
     first, m = take(known, slice(1)), known.series.shape[1]
     frame = abel.frame(first.frame.c, np.zeros(1), first.frame.starts)
     d = first.frame.positions(frame.states(chebyshev_nodes(TERMS)))[0] + 1.0
@@ -280,7 +281,7 @@ def _to_limit(known: IncrementSeries) -> IncrementSeries:
         factor = factor * (n**2 - k**2) / ((n + 1) * (2 * n + 1))
     series = np.zeros((1, m))
     series[0, :TERMS] = chebyshev_analysis(TERMS) @ values
-    misfit = np.repeat(first.misfit[:, :1], len(CHECKS), axis=1)
+    misfit = np.repeat(first.misfit[:, :1], len(CHECKS), axis=1) + abs(term) * np.max(-d) ** n
     return first._replace(frame=frame, series=series, misfit=misfit)
 
 
