@@ -117,6 +117,17 @@ def test_at_a_flat_peak_the_approach_to_the_limit_wear_has_its_error():
     assert honest(coarse.u_c, coarse.error, fine.u_c, fine.error)
 
 
+def test_a_count_with_loss_of_contact_ends_where_the_roughness_vanishes():
+    """A cycle led beyond that wear, where plans without an end were made for ever."""
+    load = Harmonics(1.62e-4, (3.45e-4,), (3.46e-4,), 0.06)
+    scene = made(1e-11, -0.67, load, roughness=6.63e-5, closure=5.54e-5, cutoff=True)
+    assert asymptote(scene).regime == "finite-time"
+    wear, error = count.sweep([scene], [10, 10**9], 1e-9)
+    assert error[0, 0] <= 1e-9
+    assert wear[0, 1] == pytest.approx(6.63e-5 / 0.67, rel=0.02)
+    assert error[0, 1] == np.inf
+
+
 def test_a_grazing_wear_that_rounding_hides_ends_the_series_before_it():
     """At f = 1/3 with a rough pin the series became no number, and 1e8 cycles were walked."""
     pin = {"wear_coefficient": 0.0, "roughness_mm": 9.22e-6, "roughness_growth": 0.0}

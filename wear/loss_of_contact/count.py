@@ -147,7 +147,8 @@ class _Counter:
 
     def unfinished(self, cycles: float) -> bool:
         """Return whether some of so many cycles are still to be counted."""
-        return not self.over and (self.done < cycles or not self.parts)
+        ahead = self.done < cycles and self.wear < self.problem.end
+        return not self.over and (ahead or not self.parts)
 
     def advance(self, cycles: float) -> Coroutine[None]:
         """Count up to so many `cycles` more."""
