@@ -84,7 +84,7 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
     """Return the expression in terms of quantities with known limits, for Coq, and its limit.
 
-    If it has none, it should be the quantity of the first limit, in other terms.
+    If no known limit occurs, it should equal the quantity of the first one in another form.
     """
     for other in step.frontier:
         relation = other.relation

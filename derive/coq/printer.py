@@ -53,7 +53,7 @@ def name(text: str) -> str:
 
 
 def distinct(expressions: Iterable[sp.Basic]) -> None:
-    """Refuse quantities and bound variables of which Coq could not tell one from another."""
+    """Refuse quantities and bound variables with equal names in Coq."""
     atoms = set().union(*(e.atoms(sp.Symbol, AppliedUndef) for e in expressions)) - {t}
     named: dict[str, sp.Basic | type] = {}
     for atom in atoms:

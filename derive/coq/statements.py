@@ -1,14 +1,14 @@
-"""What Coq is asked: a lemma for every judgement, its hypotheses as premises.
+"""The statements of lemmas: one for every judgement, with its hypotheses as premises.
 
 Overview
-    The quantities of the vocabulary are the fields of one record, ``world``; a lemma speaks of
+    The quantities of the vocabulary are the fields of one record, ``world``; a lemma is about
     any world.  Its premises are the hypotheses of the judgement and the domains of the symbols
     that occur; a premise about fields holds for every t >= 0.
 Key results
     Statement     premises and conclusion of one lemma
     statement     of a judgement
     key           a hash of the statement, and of those that it rests on
-    world         the record of all quantities that statements speak of
+    world         the record of all quantities in statements
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _LAW = (
     ("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
     ("law_differentiable", "forall r, ex_derive phi r"),
 )
-"""What is assumed of an unspecified contact law."""
+"""The assumptions on an unspecified contact law."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Statement:
 
 @cache
 def statement(judgement: Judgement) -> Statement:
-    """Return the lemma of a judgement; UntranslatableError where Coq's library lacks the words."""
+    """Return the lemma of a judgement; UntranslatableError if Coq's library lacks its terms."""
     premises = [_premise(h) for h in judgement.hypotheses]
     relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
     free = frozenset().union(*(relation.free_symbols for relation in relations))
@@ -79,9 +79,9 @@ def statement(judgement: Judgement) -> Statement:
 
 @cache
 def key(judgement: Judgement) -> str:
-    """Return what identifies a step: its statement, its rule, and the steps that it cites.
+    """Return the hash of a step: of its statement, its rule, and the steps that it cites.
 
-    UntranslatableError where it cannot be stated.
+    UntranslatableError if it cannot be stated.
     """
     cited = []
     for parent in judgement.parents:
@@ -95,7 +95,10 @@ def key(judgement: Judgement) -> str:
 
 @cache
 def claim(judgement: Judgement) -> sp.Basic:
-    """Return the claim; the derivative of a result is that of the function its premise gives."""
+    """Return the claim, in which the derivative of a result is that of its function.
+
+    The first premise gives this function.
+    """
     relation = judgement.relation
     for slope in relation.atoms(sp.Derivative):
         if isinstance(slope.expr, sp.Symbol):
@@ -123,15 +126,15 @@ def _domain(relation: sp.Basic) -> Premise:
 
 
 def _assumed(judgement: Judgement) -> list[Premise]:
-    """Return the signs of symbols that a rule or an author made for the occasion."""
-    found = sorted(judgement.relation.free_symbols, key=str)
-    own = [s for s in found if s.name not in QUANTITIES and not isinstance(s, sp.Dummy)]
-    signs = ((s, sp.Gt if s.is_positive else sp.Ge) for s in own if s.is_nonnegative)
+    """Return the signs of symbols outside the vocabulary, which a rule or an author introduced."""
+    symbols = sorted(judgement.relation.free_symbols, key=str)
+    others = [s for s in symbols if s.name not in QUANTITIES and not isinstance(s, sp.Dummy)]
+    signs = ((s, sp.Gt if s.is_positive else sp.Ge) for s in others if s.is_nonnegative)
     return [_domain(relation(symbol, 0, evaluate=False)) for symbol, relation in signs]
 
 
 def _smooth(judgement: Judgement) -> list[Premise]:
-    """Return that fields whose rates occur are differentiable."""
+    """Return the premises that fields with rates are differentiable."""
     relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
     rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
     fields = {printer.field(f) for d in rates for f in d.atoms(AppliedUndef)}
@@ -140,7 +143,7 @@ def _smooth(judgement: Judgement) -> list[Premise]:
 
 
 def _of_quantity(atom: sp.Expr) -> bool:
-    """Return whether an atom is a datum, or a field now; time and initial values go without."""
+    """Return whether an atom is a datum, or a field at time t; time and initial values are not."""
     return atom != t and (not atom.args or atom.args == (t,))
 
 
@@ -150,7 +153,7 @@ def _label(text: str) -> str:
 
 
 def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
-    """Return the premises, each once, under labels that differ."""
+    """Return the premises, each once, with distinct labels."""
     said: dict[str, Premise] = {}
     for premise in premises:
         said.setdefault(premise.said, premise)
@@ -164,10 +167,9 @@ def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
 
 
 def world(relations: list[sp.Basic]) -> str:
-    """Return the record of all quantities that occur, with the type of each, and a world that
-    differs in the wear.
+    """Return the record of all quantities, with their types, and a world that differs in the wear.
 
-    UntranslatableError where two of them would have one name.
+    UntranslatableError if two of them would have one name.
     """
     printer.distinct(relations)
     fields = {"law": "> contact_law"}

@@ -1,8 +1,8 @@
-"""Steps that cite one general theorem of the library: what is inserted into it.
+"""Steps that cite one general theorem of the library: the values for its parameters.
 
 Overview
-    How a proof is written stands in ``library/theorems.jinja``, a macro for each rule; here is
-    what SymPy finds for its holes.
+    The forms of the proofs are in ``library/theorems.jinja``, a macro for each rule; here SymPy
+    finds the values that are inserted into them.
 Key results
     proof       a proof, empty where no theorem is known for the step
     template    a template of Coq
@@ -118,7 +118,7 @@ class _Affine:
 
 
 def _affine(expr: sp.Expr) -> _Affine | None:
-    """Return an expression as one that is affine in the load; None where it is not."""
+    """Return an expression as a function that is affine in the load; None if it is not."""
     flat = sp.Symbol("load", real=True)
     for load, value in (("U_a t", flat), ("U_a t - U_c t", flat + symbol("U_c"))):
         inside = sp.expand(expr.xreplace({_LOAD: value}))
@@ -208,7 +208,7 @@ def _threshold(step: Step) -> Holes | None:
 
 
 def _nothing(_: Step) -> Holes:
-    """Return that the step itself has all that its proof needs."""
+    """Return no values: the step itself has all that its proof needs."""
     return {}
 
 
@@ -231,7 +231,7 @@ _HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
     "Unbounded": _unbounded,
     "Vanishes": _squeezed,
 }
-"""What the proofs need, by the name of the rule, or of what is claimed."""
+"""The values that proofs need, by the name of the rule, or of the kind of claim."""
 
 
 def proof(step: Step) -> str:
@@ -250,7 +250,7 @@ def template(name: str) -> Template:
     """Return a template of Coq; Jinja2 is imported when a proof is written."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    made = Environment(
+    environment = Environment(
         loader=PackageLoader(__package__, "library"),
         trim_blocks=True,
         lstrip_blocks=True,
@@ -258,6 +258,6 @@ def template(name: str) -> Template:
         undefined=StrictUndefined,
     )
     known = {each.__name__: each for each in (always, binder, field, proposition, term)}
-    made.filters |= known
-    made.globals |= known | {"t": t, "RATIO": _RATIO}
-    return made.get_template(f"{name}.jinja")
+    environment.filters |= known
+    environment.globals |= known | {"t": t, "RATIO": _RATIO}
+    return environment.get_template(f"{name}.jinja")
