@@ -59,9 +59,9 @@ class Continuous(Predicate):
         return rf"{printer.doprint(self.args[0])}\;\text{{is continuous}}"
 
 
-class Averaged(Predicate):
+class SlowEquation(Predicate):
     """m is the roughness without its oscillation, in the sense of ``Term``, where s_0 is the
-    constant of integration; ``Averaged(m, s_0)``."""
+    constant of integration; ``SlowEquation(m, s_0)``."""
 
     def _sympystr(self, printer: sp.printing.printer.Printer) -> str:
         m, s_0 = map(printer.doprint, self.args)

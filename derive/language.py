@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from .claims import Averaged, Continuous, Drift, FirstZero, Oscillation, Term, landau_o
+from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Term, landau_o
 from .laws import GENERAL
 from .note.model import FIELDS, WEARING
 from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
@@ -38,7 +38,7 @@ _HEADS = frozenset(
         *(sp.Limit, sp.Integral, sp.Derivative, sp.Subs, sp.Lambda, sp.Tuple),
         *(sp.Eq, sp.Ne, sp.Gt, sp.Ge, sp.Lt, sp.Le, sp.And, sp.Equivalent),
         *map(type, (sp.true, sp.false, sp.pi, sp.E, sp.S.Half, sp.S(0), sp.S(1), sp.S(-1))),
-        *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation, Continuous, Averaged),
+        *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation, Continuous, SlowEquation),
     )
 )
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS
@@ -48,7 +48,7 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
-_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, Averaged: 2}
+_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2}
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
 """Functions that have a value at every real argument."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")

@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 from ..rules.growth import expanded
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
-from ..rules.solutions import Integrated
+from ..rules.solutions import ByParts
 from ..symbols import symbol, t
 from .printer import always, binder, field, proposition, term
 from .steps import Step
@@ -46,7 +46,7 @@ def _separates(step: Step) -> Holes:
 
 
 def _by_parts(step: Step) -> Holes:
-    assert isinstance(step.judgement.rule, Integrated)
+    assert isinstance(step.judgement.rule, ByParts)
     (integral,) = step.frontier[0].relation.atoms(sp.Integral)
     return {"integral": integral}
 
@@ -216,12 +216,12 @@ _HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
     "Accumulates": _accumulates,
     "AtInfinity": _at_infinity,
     "Differentiate": _nothing,
-    "Differentiated": _derivative,
+    "DataDerivative": _derivative,
     "Diverges": _diverges,
     "FirstOrder": _first_order,
     "Grows": _grows,
     "Integrate": _integrates,
-    "Integrated": _by_parts,
+    "ByParts": _by_parts,
     "Lipschitz": _lipschitz,
     "LogarithmicDrift": _drift,
     "LogarithmicSlope": _logarithmic_slope,

@@ -28,7 +28,7 @@ from ..rules.drift import LeadingTerm, LogarithmicGrowth
 from ..rules.growth import AtInfinity, unbounded
 from ..rules.inequalities import Arithmetic, Monotone
 from ..rules.limits import forever
-from ..rules.solutions import Integrated, Separate
+from ..rules.solutions import ByParts, Separate
 from ..symbols import rate, symbols, t
 from .steady_state import closure, roughness, wear_rate
 
@@ -91,7 +91,7 @@ _time = Separate(sp.Eq(f_c * M * t / T, _whole))(
     _falling, Solve(u_c)(grown, smoothing), bearing_only().start[4], rough, smoothing
 )
 _cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T))
-_by_parts = Integrated(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)
+_by_parts = ByParts(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)
 (_shown,) = stated("saturating-wear")
 saturating_wear = LeadingTerm(sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One)))(
     _by_parts(_cycles, rough, smoothing), rough, smoothing, name="saturating wear"

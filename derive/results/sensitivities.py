@@ -25,7 +25,7 @@ from ..note.condensed import bearing_only
 from ..note.stabilised import pressure, wear_per_cycle
 from ..rules.algebra import Insert, Logarithm, substitute
 from ..rules.assumption import assume
-from ..rules.data import Differentiated
+from ..rules.data import DataDerivative
 from ..symbols import symbols
 from .compliant import CompliantSteadyState
 from .first_integral import log_odds
@@ -55,7 +55,7 @@ def sensitivity(
     claim = sp.Eq(scale * slope, value, evaluate=False)
     names = [pressure] if value.has(p_inf) else []
     names += [largest_wear] if value.has(M) else []
-    return Differentiated(claim, parameter)(result, *names, name="sensitivity")
+    return DataDerivative(claim, parameter)(result, *names, name="sensitivity")
 
 
 def elasticity(result: Judgement, parameter: sp.Symbol, value: sp.Expr) -> Judgement:

@@ -20,7 +20,7 @@ from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume
-from ..rules.solutions import Integrated, Separate, follows
+from ..rules.solutions import ByParts, Separate, follows
 from ..symbols import initial, rate, symbols, t
 from .first_integral import first_integral_compliant, log_odds
 from .static_solution import half_rate, load_offset
@@ -83,7 +83,7 @@ def _time(wear: Judgement, primitive: sp.Expr, rest: sp.Expr, *facts: Judgement)
     slope = p_max / p_s * sp.diff(worn, p_s).subs(known).subs(p, p_s)
     claim = sp.Eq(2 * C * t, sp.Integral(slope, (p_s, p_start, p)))
     time = Separate(claim)(_rate, wear, *facts)
-    return Integrated(primitive, rest)(time, *facts, name="time")
+    return ByParts(primitive, rest)(time, *facts, name="time")
 
 
 _rough = (f_c * wear.claim.rhs + sigma_c0).subs(p, p_s)

@@ -23,7 +23,7 @@ from ..hypotheses import CONSTANT, SLOPED, Hypothesis
 from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Multiply, Solve, substitute
 from ..rules.assumption import assume, defined
-from ..rules.solutions import Integrated, Lambert, Separate
+from ..rules.solutions import ByParts, Lambert, Separate
 from ..symbols import rate, symbols, t
 from .regimes import grown, kept, rough
 
@@ -68,8 +68,8 @@ _whole = sp.Integral(1 + odds, (sigma_s, sigma_c0, sigma_c))
 _time = Separate(sp.Eq(2 * C * f_c * t, _whole))(
     _rate, worn, start_of_roughness, rough, sloped, moving
 )
-_time = Integrated(sigma_s + sigma_s * odds, -2 * beta / sigma_s * odds)(_time, rough)
-_time = Integrated(sp.exp(-2 * x_inf) * primitive(sigma_s)[1])(_time, rough, moving)
+_time = ByParts(sigma_s + sigma_s * odds, -2 * beta / sigma_s * odds)(_time, rough)
+_time = ByParts(sp.exp(-2 * x_inf) * primitive(sigma_s)[1])(_time, rough, moving)
 time = Consequence(stated("static-solution")[0])(
     Multiply(1 / (2 * C * f_c))(_time, sloped), grown, rough, moving, name="static solution"
 )
@@ -80,7 +80,7 @@ static_solution = (time, load_offset, limit_argument, half_rate)
 _growth = 4 * ell / sigma_c0 * sp.exp(4 * u_s / sigma_c0)
 _rate = Consequence(_law(2 * _growth.subs(u_s, u_c)))(kept, half_rate, scale, name="rate, f_c = 0")
 _whole = sp.Integral(sp.Rational(1, 2) + _growth, (u_s, 0, u_c))
-time_smooth = Integrated(u_s / 2 + ell * sp.exp(4 * u_s / sigma_c0))(
+time_smooth = ByParts(u_s / 2 + ell * sp.exp(4 * u_s / sigma_c0))(
     Separate(sp.Eq(C * t, _whole))(_rate, start_of_wear, constant)
 )
 """The time at which the wear is u_c, for f_c = 0."""

@@ -22,7 +22,7 @@ from functools import cache
 import sympy as sp
 
 from ..averaging import collected, mean, turning, z
-from ..claims import Asymptotic, Averaged, Drift, Equality, Oscillation, Term
+from ..claims import Asymptotic, Drift, Equality, Oscillation, SlowEquation, Term
 from ..hypotheses import LOAD, SINE, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
 from ..reals import LAW, holds
@@ -39,7 +39,7 @@ ORDER = 4
 ROUGHNESS = sp.Symbol("s", positive=True)
 """The roughness as a variable: bound in a definition of a coefficient."""
 
-EXPANSION = Hypothesis(Averaged(m, s_0), Kind.DEFINITION)
+EXPANSION = Hypothesis(SlowEquation(m, s_0), Kind.DEFINITION)
 OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
 SATURATION = sp.Eq(theta, sp.tanh(4 - 2 / f_c))
 

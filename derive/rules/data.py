@@ -1,7 +1,7 @@
 """Results as functions of a parameter: their derivatives.
 
 Key results
-    Differentiated   the derivative of a result with respect to a parameter
+    DataDerivative   the derivative of a result with respect to a parameter
     OneSign          a derivative that is nowhere negative, or nowhere positive
 """
 
@@ -78,7 +78,7 @@ def _is_law(relation: sp.Basic) -> bool:
 
 
 @dataclass(frozen=True)
-class Differentiated(Rule):
+class DataDerivative(Rule):
     """``y = F(a, ...)`` gives ``dy/da``: F is a function of data, of which a varies alone.
 
     The claim has the derivative of y; further premises name constants of the claim.

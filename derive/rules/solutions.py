@@ -3,7 +3,7 @@
 Key results
     Follows       the only root of the equation of the pressure is continuous
     Separate      c t = int g(y) dy, where rate and wear are functions of y alone
-    Integrated    a part of an integral, or all of it, by a primitive
+    ByParts       a part of an integral, or all of it, by a primitive
     Lambert       w e^w = x gives w = W(x)
     FirstRoot     the first zero of a function that a positive factor makes quadratic
 """
@@ -102,7 +102,7 @@ class Separate(Rule):
 
 
 @dataclass(frozen=True)
-class Integrated(Rule):
+class ByParts(Rule):
     """``int g ds = F(b) - F(a) + int r ds`` from a to b, for a smooth F with ``F' = g - r``."""
 
     primitive: sp.Expr

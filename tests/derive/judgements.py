@@ -30,7 +30,7 @@ from derive.rules.averages import (
     term_of,
 )
 from derive.rules.calculus import SPRINGS
-from derive.rules.data import Differentiated
+from derive.rules.data import DataDerivative
 from derive.rules.drift import MEAN, LogarithmicGrowth, logarithmic_drift
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever
@@ -130,7 +130,7 @@ def opened(*facts: Judgement) -> Judgement:
 
 def sloped(*facts: Judgement) -> Judgement:
     """Return the slope of u_cum = h_0 f_c in f_c."""
-    return Differentiated(equal(SLOPE, h_0), f_c)(GROWING, *facts)
+    return DataDerivative(equal(SLOPE, h_0), f_c)(GROWING, *facts)
 
 
 def logarithmic(

@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
-from derive.claims import Averaged, Continuous, FirstZero, landau_o
+from derive.claims import Continuous, FirstZero, SlowEquation, landau_o
 from derive.hypotheses import Kind
 from derive.kernel import RuleError, replayed
 from derive.laws import TANH, ContactLaw, r
@@ -171,7 +171,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.CONDITION, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
     (Kind.CONDITION, sp.Lt(t, T * WIGGLE.subs(t, 0)), "cannot be assumed"),  # later
     (Kind.CONDITION, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
-    (Kind.DEFINITION, Averaged(f_c, h_0), "no equation"),  # it says what f_c is
+    (Kind.DEFINITION, SlowEquation(f_c, h_0), "no equation"),  # it says what f_c is
     (Kind.CONDITION, Continuous(U_a, h), "no 1 parts"),
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1

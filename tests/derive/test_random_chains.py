@@ -106,13 +106,13 @@ rules = st.one_of(
     st.builds(inequalities.Arithmetic, relations),
     st.builds(inequalities.Monotone, functions),
     st.builds(inequalities.Lipschitz, functions, expressions, expressions, expressions),
-    st.builds(data.Differentiated, equations, st.sampled_from([f_c, h_0])),
+    st.builds(data.DataDerivative, equations, st.sampled_from([f_c, h_0])),
     st.builds(data.OneSign, st.sampled_from([f_c, h_0, C])),
     st.builds(growth.Diverges, expressions),
     st.builds(growth.AtInfinity, ends, st.just(1 / u_c)),
     st.builds(limits.Passes, ends),
     st.builds(solutions.Separate, equations),
-    st.builds(solutions.Integrated, expressions),
+    st.builds(solutions.ByParts, expressions),
     st.builds(solutions.Lambert, expressions),
 )
 drawn_chains = st.tuples(

@@ -19,7 +19,7 @@ from derive.rules.calculus import (
     integrate,
     rigid,
 )
-from derive.rules.data import Differentiated, OneSign
+from derive.rules.data import DataDerivative, OneSign
 from derive.rules.inequalities import (
     Arithmetic,
     Lipschitz,
@@ -199,7 +199,7 @@ FAMILIES = (
     }),
     # ---- data
     Family(lambda claim, known=GROWING, datum=f_c,
-        *facts: Differentiated(claim, datum)(known, *facts), (
+        *facts: DataDerivative(claim, datum)(known, *facts), (
         equal(SLOPE, h_0), (equal(IN_H_0, f_c), defined(u_cum, f_c * h_0), h_0),
         (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.exp(-h / sigma)))),
         (equal(SLOPE, h_0), beside(*FIELDS, BOUNDED)),

@@ -8,7 +8,7 @@ from derive.claims import FirstZero
 from derive.hypotheses import CONTINUOUS
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
-from derive.rules.solutions import FirstRoot, Integrated, Lambert, Separate, follows
+from derive.rules.solutions import ByParts, FirstRoot, Lambert, Separate, follows
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
     APART,
@@ -104,7 +104,7 @@ FAMILIES = (
         "twice the time": ("separates", 2 / C, C),
         "another start": ("is continuous", 1 / C, C, eq(initial("u_c"), 1)),
     }),
-    Family(lambda *facts: Integrated(sp.log(u_s - C * T * tau + q))(
+    Family(lambda *facts: ByParts(sp.log(u_s - C * T * tau + q))(
         eq(G, sp.Integral(1 / (u_s - C * T * tau + q), (u_s, 0, u_c))), *facts), (
         (ge(u_c, 0), lt(C * T * tau, h), le(h, q)),
     ), {
@@ -134,7 +134,7 @@ FAMILIES = (
         "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
-    Family(lambda *facts: Integrated(p_s - p_max * sp.log(p_max - p_s))(
+    Family(lambda *facts: ByParts(p_s - p_max * sp.log(p_max - p_s))(
         eq(G, sp.Integral(1 + p_max / (p_max - p_s), (p_s, initial("p"), p))), *facts), (
         (follows(eq(p, q * U_a), assume(CONTINUOUS)), given(p < p_max)),
     ), {
@@ -143,7 +143,7 @@ FAMILIES = (
         "beyond the largest pressure": ("p_max", follows(eq(p, q * U_a), assume(CONTINUOUS))),
     }),
     Family(lambda primitive, body, s=p_s, low=1,
-        *facts: Integrated(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
+        *facts: ByParts(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
         (p_s**2 / 2, p_s), (-1 / p_s, p_s**-2),
         (-1 / u_s, u_s**-2, u_s, f_c, ROUGHENS),  # across 0
     ), {
