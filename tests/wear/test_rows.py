@@ -113,6 +113,17 @@ def test_an_instrument_s_file_that_is_described_wrongly(entries, problem, remedy
     assert remedy in caught.value.faults[0].remedy
 
 
+def test_a_fault_of_the_load_of_a_file_is_the_file_s(tmp_path):
+    (tmp_path / "a.csv").write_text("t_s,R_a_N\n0,-1\n1,-1\n")
+    for kind, entries, problem in (
+        ("force", {}, "the force goes from -1 to -1 N"),
+        ("history", {"columns": ["t_s", "R_a_N"], "period_s": 2.0}, "is longer than the rows"),
+    ):
+        with pytest.raises(SceneError) as caught:
+            scene(tmp_path, kind=kind, file="a.csv", **entries)
+        assert problem in caught.value.faults[0].problem
+
+
 # One period out of a record
 
 

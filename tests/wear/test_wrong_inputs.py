@@ -71,6 +71,7 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.Blocks(3),
         lambda: OPEN.Block(OPEN.HistoryLoad((0, 1), (0, 0), 1), 1),
         lambda: OPEN.Block(OPEN.Force(1, 1), 1),
+        lambda: OPEN.HistoryLoad((0, 1), (0, 0), 2),
         lambda: OPEN.Bearing({}, [], None, "x"),
         lambda: OPEN.solve("section4", 1).write("wear.xlsx"),
         lambda: OPEN.fit(None, "section4", K),

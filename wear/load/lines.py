@@ -6,10 +6,11 @@ import dataclasses
 import math
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar, Self
+from typing import ClassVar, Self, TypeVar
 
 import numpy as np
 from pydantic import Field, model_validator
+from pydantic_core import ArgsKwargs
 
 from wear.checked import Positive, Reals, SceneTable, all_wrong, table, wrong
 from wear.load.periodic import inside, within_cycle
@@ -17,6 +18,7 @@ from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_fa
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of
 
+T = TypeVar("T", "Table", "ForceTable", "HistoryLoad")
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
 
 
@@ -176,6 +178,13 @@ class HistoryLoad(_Rows):
     source: HistoryFile | None = Field(default=None, exclude=True)
     __repr__ = _Rows.__repr__
 
+    @model_validator(mode="after")
+    def _has_a_cycle(self) -> Self:
+        if self.cycles < 1.0 - SEAM_TOLERANCE:
+            problem = f"is longer than the rows, which end at t_s = {self.duration!r}"
+            raise wrong(problem, "give the time of a cycle, or drop it", "period_s")
+        return self
+
     def __call__(self, time: FloatArray | float) -> FloatArray:
         return self._between(inside(time, self.duration))
 
@@ -206,12 +215,20 @@ def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | History
     times, values = rows.times, rows.values
     source = dataclasses.replace(form, sha256=rows.sha256)
     if isinstance(source, HistoryFile):
-        return HistoryLoad(_floats(times), _floats(values), form.period_s or times[-1], source)
+        period = form.period_s or float(times[-1])
+        return _validated(HistoryLoad, _floats(times), _floats(values), period, source)
     assert isinstance(source, TableFile)
     times, values = _closed(times, values, form.period_s, repeat)
     if isinstance(source, ForceFile):
-        return ForceTable(_floats(times), _floats(values), source)
-    return Table(_floats(times), _floats(values), source)
+        return _validated(ForceTable, _floats(times), _floats(values), source)
+    return _validated(Table, _floats(times), _floats(values), source)
+
+
+def _validated(kind: type[T], *fields: object) -> T:
+    """Return a load of these fields; unlike its constructor, raise pydantic's `ValidationError`."""
+    validator = kind.__pydantic_validator__  # type: ignore[attr-defined]
+    load: T = validator.validate_python(ArgsKwargs(fields))
+    return load
 
 
 def _floats(array: FloatArray) -> tuple[float, ...]:
