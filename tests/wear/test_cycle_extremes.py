@@ -52,11 +52,6 @@ ONCE_WRONG = {
         roughness=0.00020653801558105292, closure=0.0006658785622333147,
     ),
     "large swing": made(1.562e-4, 0.2466, Harmonics(0.0, (7.257e-3,), (), 0.3448)),
-    # at its flat peak the slope of the load is rounding: its trough was not seen
-    "flat peak": made(
-        1e-3, 0.05, Harmonics(0.0, (1.4e-5, -3.5e-6), (), 0.06), roughness=9e-5, closure=9.3e-5,
-        k=2e5, cutoff=True,
-    ),
     # a solution with negative roughness was found
     "beyond": made(0.3, -0.05),
 }  # fmt: skip
