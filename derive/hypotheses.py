@@ -46,7 +46,7 @@ def sentences(hypotheses: Iterable[Hypothesis]) -> list[str]:
     """Return hypotheses in sentences: settings in one line, each other one in its own."""
     shown = [h for h in hypotheses if h.shown]
     settings = dict.fromkeys(h.text for h in shown if h.is_setting)
-    others = dict.fromkeys(f"if {h.text}" for h in shown if not h.is_setting)
+    others = dict.fromkeys(f"if {h.stated}" for h in shown if not h.is_setting)
     return [*([f"setting: {', '.join(settings)}"] if settings else []), *others]
 
 
@@ -84,6 +84,15 @@ class Hypothesis:
     def text(self) -> str:
         """Return its words, or its formula as plain text if it has none."""
         return self.words or self._formula
+
+    @property
+    def stated(self) -> str:
+        """Return it as one types it, after its words if it has some.
+
+        >>> ROUGHENING.stated
+        'the bearing roughens as it wears: f_c > 0'
+        """
+        return f"{self.words}: {self._formula}" if self.words else self._formula
 
     @property
     def typed(self) -> str:
@@ -125,7 +134,7 @@ def _meaning(relation: sp.Basic) -> str:
     """Return a definition in words: its names, and the expansion that they belong to."""
     names = " and ".join(sorted(defined_by(relation)))
     terms = "".join(f", in {term.words}" for term in relation.atoms(Term))
-    return f"{names} by definition{terms}"
+    return f"Definition of {names}{terms}"
 
 
 h, U, U_a, U_c, u_a, sigma_a, sigma_c = symbols("h U U_a U_c u_a sigma_a sigma_c")

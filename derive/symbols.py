@@ -172,7 +172,8 @@ def symbols(names: str) -> tuple[sp.Expr, ...]:
 
 
 def rate(name: str) -> sp.Derivative:
-    """Return the time derivative of a quantity that varies."""
+    """Return the time derivative of a quantity that varies, and is the integral of it: the rate
+    may jump, so that it is known at almost every time."""
     return sp.Derivative(symbol(name), t)
 
 

@@ -65,7 +65,8 @@ class Assume(Rule):
         return Conclusion(claim, adds=(given, *adds))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
-        return f"Hypothesis: {self.hypothesis.text}."
+        opening = "" if self.hypothesis.kind is Kind.DEFINITION else "Hypothesis: "
+        return f"{opening}{self.hypothesis.text}."
 
 
 def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[Hypothesis, ...]:

@@ -232,7 +232,7 @@ FAMILIES = (
         "a wear that goes like m": ("a function of m", h_0**4 * u_c / m**4),
         "a slow time with 0/0": ("Ne", GAP * h_0**5 / m**5),
         "a slow time with a drift less": ("the drifts", 0, 0),
-        "a slow time of any roughness": ("s_0 by definition", 0, 4),
+        "a slow time of any roughness": ("Definition of s_0", 0, 4),
         "another time": ("dtau/dm", 0, None, h_0),
     }),
 )  # fmt: skip
