@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 from .claims import Predicate
 from .coq.steps import proved_by_coq
-from .dimensions import homogeneous
+from .dimensions import dimension_fault
 from .falsifier.judgements import counterexample_without, try_on_models
-from .kernel import Judgement, replayed
+from .kernel import Judgement, replay_fault
 from .rules.assumption import Assume
 
 
@@ -25,7 +25,7 @@ class Check(NamedTuple):
 
 def step_checks(judgement: Judgement) -> tuple[Check, ...]:
     """Check one step without models; its parents are steps of their own."""
-    fault, refusal = homogeneous(judgement.relation), replayed(judgement)
+    fault, refusal = dimension_fault(judgement.relation), replay_fault(judgement)
     results = [
         Check("dimensions", fault is None, fault or "both sides agree"),
         Check("proof", refusal is None, refusal or judgement.rule.source),
@@ -49,6 +49,6 @@ def condition_checks(judgement: Judgement) -> tuple[Check, ...]:
     broken = {h: counterexample_without(judgement, h) for h in relations}
     none = "no model shows that it is needed"
     return tuple(
-        Check("hypothesis", True, f"{h.typed}: {f'without it false for {by}' if by else none}")
+        Check("hypothesis", True, f"{h.brief}: {f'without it false for {by}' if by else none}")
         for h, by in broken.items()
     )

@@ -1,8 +1,8 @@
 """Dimensions: both sides of every equation must have the same, term by term.
 
 Key results
-    dimension(expr)     the exponents of (mm, s, MPa), or DimensionError
-    homogeneous(claim)  None, or the fault of a relation
+    dimension          the exponents of (mm, s, MPa) of an expression, or DimensionError
+    dimension_fault    the reason why a relation is not homogeneous, or None
 """
 
 from __future__ import annotations
@@ -113,8 +113,8 @@ def _check_condition(condition: sp.Basic) -> None:
         _common([relation.lhs, relation.rhs])
 
 
-def homogeneous(claim: sp.Basic) -> str | None:
-    """Return None if every relation in ``claim`` is dimensionally homogeneous, else the fault."""
+def dimension_fault(claim: sp.Basic) -> str | None:
+    """Return why a relation in ``claim`` is not dimensionally homogeneous, None if all are."""
     try:
         _check_condition(claim)
     except DimensionError as fault:

@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from .claims import Term, claim_of
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain, identity
+from .kernel import Judgement, chain, domain, step_key
 from .language import defined_by, names
 from .rules.assumption import Assume
 from .symbols import DATA, QUANTITIES
@@ -175,7 +175,7 @@ class Equation:
     @property
     def steps(self) -> tuple[Judgement, ...]:
         """Return the chain of statements from the governing equations to this one, each once."""
-        return tuple({identity(step): step for step in chain(*self.statements)}.values())
+        return tuple({step_key(step): step for step in chain(*self.statements)}.values())
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:

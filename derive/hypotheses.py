@@ -95,10 +95,10 @@ class Hypothesis:
         return f"{self.words}: {self._formula}" if self.words else self._formula
 
     @property
-    def typed(self) -> str:
-        """Return the relation as plain text, its words if it is an equation or long.
+    def brief(self) -> str:
+        """Return its formula as plain text, or its words if it is a setting, an equation or long.
 
-        >>> ROUGHENING.typed, BOUNDED_LOAD.typed, KEPT.typed
+        >>> ROUGHENING.brief, BOUNDED_LOAD.brief, KEPT.brief
         ('f_c > 0', '|U_a| <= U', 'wear does not change the roughness')
         """
         long = isinstance(self.relation, sp.Equality) or len(self._formula) > _SHORT

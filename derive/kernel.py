@@ -12,7 +12,7 @@ Key results
     Rule          a theorem, which concludes from premises
     infer         apply a rule
     chain         judgements and all that they rest on, premises first
-    replayed      None, or the reason why a judgement does not follow from its parents
+    replay_fault  the reason why a judgement does not follow from its parents, or None
 References
     Gordon, Milner, Wadsworth, Edinburgh LCF, 1979.
 """
@@ -32,13 +32,13 @@ from sympy.core.relational import Relational
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
-from .language import defined_by, face, fault, meant_by, names
+from .language import defined_by, fault, meant_by, names, typeset_name
 from .note.model import CLOSURE, WEARING, subject
 from .reals import contradictory
 from .symbols import CLOCKS, QUANTITIES, symbol, t
 from .time_limit import time_limit
 
-_ROOM = "derive.rules."
+_RULES = "derive.rules."
 _TOKEN = object()
 _PRESSURE = symbol("p")
 LIMIT_S = 60.0
@@ -78,8 +78,8 @@ class Rule(ABC):
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
-    asks: ClassVar[tuple[str, ...]] = ()
-    """The first premises, in this order; others may follow."""
+    premise_names: ClassVar[tuple[str, ...]] = ()
+    """What the first premises are, in order, for messages; others may follow."""
     source = "elementary"
     """A reference for the theorem."""
 
@@ -159,39 +159,39 @@ def domain(atom: sp.Expr) -> Relational | None:
 
 def infer(rule: Rule, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
     """Apply a rule to premises; RuleError if its theorem does not cover them."""
-    hypotheses, claim = _followed(rule, premises)
+    hypotheses, claim = _apply(rule, premises)
     return Judgement(hypotheses, claim, rule, premises, name, remark, _TOKEN)
 
 
-def _followed(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
+def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
     """Return the hypotheses and the claim that a rule concludes from premises.
 
     They depend only on its fields and on the hypotheses and claims of the premises, so that each
     application is computed once; RuleError if a stored conclusion was changed.
     """
     kind = type(rule)
-    if not kind.__module__.startswith(_ROOM) or (
+    if not kind.__module__.startswith(_RULES) or (
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
     ):
-        raise RuleError(f"{kind.__name__} is no rule of {_ROOM[:-1]}")
+        raise RuleError(f"{kind.__name__} is no rule of {_RULES[:-1]}")
     if set(vars(rule)) != {field.name for field in fields(rule)}:  # type: ignore[arg-type]
         raise RuleError(f"{kind.__name__} has fields that are not its own")
     if any(type(premise) is not Judgement for premise in premises):
         raise RuleError("missing premise: a judgement")
-    if len(premises) < len(rule.asks):
-        raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.asks)}")
+    if len(premises) < len(rule.premise_names):
+        raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.premise_names)}")
     _require_language(*vars(rule).values())
     application = rule, tuple((premise.hypotheses, premise.claim) for premise in premises)
-    known = _KNOWN.get(application)
+    known = _CONCLUSIONS.get(application)
     if known is None or _content(known[:2]) != known[2]:
-        made = _concluded(rule, premises)
+        made = _conclude(rule, premises)
         if known is not None and _content(made) != known[2]:
             raise RuleError("a stored conclusion was changed")
-        known = _KNOWN[application] = *made, _content(made)
+        known = _CONCLUSIONS[application] = *made, _content(made)
     return known[:2]
 
 
-_KNOWN: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, object]] = {}
+_CONCLUSIONS: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, object]] = {}
 
 
 def _content(node: object) -> object:
@@ -202,7 +202,7 @@ def _content(node: object) -> object:
     return (type(node), *map(_content, parts)) if parts else node
 
 
-def _concluded(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
+def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
     with time_limit(LIMIT_S, f"{type(rule).__name__}: {rule.words}"):
         made = rule.conclude(*premises)
     union = (h for premise in premises for h in premise.hypotheses)
@@ -278,12 +278,12 @@ def _require_language(*parts: object) -> None:
     if found := next(filter(None, map(fault, expressions)), None):
         raise RuleError(f"no claim: {found}")
     bearers = frozenset().union(*map(names, expressions))
-    if len({face(name) for name, _ in bearers}) < len(bearers):
+    if len({typeset_name(name) for name, _ in bearers}) < len(bearers):
         raise RuleError("no claim: two quantities have one name")
 
 
-def replayed(judgement: Judgement) -> str | None:
-    """Return None if the rule gives this judgement again from its parents, else the fault."""
+def replay_fault(judgement: Judgement) -> str | None:
+    """Return why the rule does not give this judgement again from its parents, None if it does."""
     if type(judgement) is not Judgement:
         return "it is no judgement"
     if {type(judgement.hypotheses), type(judgement.parents)} != {tuple}:
@@ -291,7 +291,7 @@ def replayed(judgement: Judgement) -> str | None:
     try:
         chain(judgement)
         _require_language(judgement.claim.relation, *judgement.hypotheses)
-        hypotheses, claim = _followed(judgement.rule, judgement.parents)
+        hypotheses, claim = _apply(judgement.rule, judgement.parents)
     except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
         return str(refusal) or type(refusal).__name__
     if _content(claim) != _content(judgement.claim):
@@ -301,8 +301,8 @@ def replayed(judgement: Judgement) -> str | None:
     )
 
 
-def identity(step: Judgement) -> Hashable:
-    """Return a key that is equal for equal steps."""
+def step_key(step: Judgement) -> Hashable:
+    """Return a key that equal steps share."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
     return (step.rule, step.hypotheses, step.claim, parents)
 

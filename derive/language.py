@@ -1,17 +1,18 @@
 """The language of claims: the expressions that they may contain, and bound variables.
 
 Overview
-    The kernel trusts the heads that the model needs, real numbers, and names with the domain of
-    the vocabulary.  A new head may have a false sign, another f_c may be positive, O(t) is no
-    number, nor is a float exact: none of these is in the language.
+    The kernel trusts the heads that the model needs, exact real numbers, and names with their
+    domain in the vocabulary.  Excluded are other heads, to which SymPy may assign a wrong sign, a
+    second f_c with another domain, O(t), which is no number, and floats, which are not exact.
 Key results
-    fault(expr)    the reason why an expression is not in the language, or None
-    names(expr)    the names in an expression, with their symbols or functions
-    defined_by     the names that a definition introduces, meant_by the names in their meaning
-    bound(expr)    the variables that one node binds: of an integral, a limit, a derivative
-    certain(expr)  the parts that are defined wherever the whole is
-    needs(expr)    the conditions for an expression to be defined, if its arguments are
-    told_by(expr)  relations that hold wherever it is defined
+    fault         the reason why an expression is not in the language, or None
+    names         the names in an expression, with their symbols or functions
+    defined_by    the names that a definition introduces
+    meant_by      the names in their meaning
+    bound         the variables that one node binds: of an integral, a limit, a derivative
+    certain       the parts that are defined wherever the whole is
+    needs         the conditions for an expression to be defined, if its arguments are
+    implied_by    the relations that hold wherever an expression is defined
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ _RANGES = [sp.Function("any", **domain)._kwargs for domain in _SIGNS]
 def fault(expr: sp.Basic) -> str | None:
     """Return why an expression is not in the language, None if it is.
 
-    The type of a node is checked before any of its methods is called: it may lie.
+    The type of a node is checked before any of its methods, which a subclass may override.
 
     >>> fault(symbol("f_c") + 1), fault(sp.Symbol("f_c", positive=True))
     (None, 'f_c is not the f_c of the vocabulary')
@@ -174,12 +175,12 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
 
 def _shows(name: str) -> bool:
     """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary."""
-    shown = face(name)
+    shown = typeset_name(name)
     return shown not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 
 
 @cache
-def face(name: str) -> str:
+def typeset_name(name: str) -> str:
     """Return a name as typeset: x1 and x_1 look alike."""
     return str(sp.latex(sp.Symbol(name))).replace(" ", "")
 
@@ -268,7 +269,7 @@ def needs(expr: sp.Basic) -> list[sp.Basic]:
     return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
 
 
-def told_by(expr: sp.Basic) -> list[sp.Basic]:
+def implied_by(expr: sp.Basic) -> list[sp.Basic]:
     """Return the relation that holds wherever an expression is defined.
 
     There is none for a power with a symbolic exponent, which may be defined for any base.

@@ -17,7 +17,7 @@ Key results
     EXPONENTIAL  p_max exp(-h/sigma), the tail of a Greenwood-Williamson contact
     GENERAL      an unspecified positive, decreasing phi, for the general theorems
     StableForm   a form to compute with: intermediates, value and slope
-    released     that form without the limits of floating point
+    unclamped    an expression without the bound on exponents
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ import sympy as sp
 r = sp.Symbol("r", real=True)
 """Closure over equivalent roughness, h/sigma."""
 
-HELD = 709
-"""Argument beyond which the odds are constant: the largest integer with a finite exponential."""
+EXP_BOUND = 709
+"""Bound of exponents: the largest integer with a finite exponential in double precision."""
 
 odds, share, spread = sp.symbols("odds share spread", positive=True)
 """p/(p_max - p); p/p_max; p (p_max - p)/p_max^2, to which the slope of tanh is proportional."""
@@ -42,7 +42,7 @@ class StableForm:
     """A form of phi(r) and its slope that neither overflows nor loses digits.
 
     ``names`` are intermediates in order, each an expression in r and earlier ones, in exact
-    form except for exponents held below HELD.  ``far_value`` and ``far_steepness`` are phi and
+    form except for exponents clamped at EXP_BOUND.  ``far_value`` and ``far_steepness`` are phi and
     phi'/phi in one expression each that does not overflow for large r, where they tend to a limit;
     None where the plain form does not.
     """
@@ -92,7 +92,7 @@ TANH = ContactLaw(
     source="Eq. (4)",
     form=StableForm(
         names=(
-            (odds, sp.exp(sp.Min(8 - 4 * r, HELD))),
+            (odds, sp.exp(sp.Min(8 - 4 * r, EXP_BOUND))),
             (share, odds / (1 + odds)),
             (spread, share / (1 + odds)),
         ),
@@ -122,9 +122,9 @@ LAWS = MappingProxyType({law.name: law for law in (TANH, EXPONENTIAL)})
 """The laws that code is generated for."""
 
 
-def released(expr: sp.Expr) -> sp.Expr:
-    """Return an expression without the bound HELD on its exponents: the exact form."""
+def unclamped(expr: sp.Expr) -> sp.Expr:
+    """Return the exact form of an expression: its exponents without the bound EXP_BOUND."""
     return expr.replace(
-        lambda e: isinstance(e, sp.Min) and HELD in e.args,
-        lambda e: next(argument for argument in e.args if argument != HELD),
+        lambda e: isinstance(e, sp.Min) and EXP_BOUND in e.args,
+        lambda e: next(argument for argument in e.args if argument != EXP_BOUND),
     )

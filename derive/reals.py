@@ -24,7 +24,7 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from .language import certain, is_slope_of_law, told_by
+from .language import certain, implied_by, is_slope_of_law
 from .laws import GENERAL
 
 LAW = GENERAL.phi.func
@@ -80,7 +80,7 @@ def _refuted(facts: frozenset[sp.Basic], goal: sp.Basic | None = None) -> bool:
     if translated is None:
         return False
     parts = {part for fact in facts if not fact.has(sp.zoo) for part in certain(fact)}
-    implied = facts.union(*map(told_by, parts))
+    implied = facts.union(*map(implied_by, parts))
     if sp.false in implied:
         return True
     given = (translator.relation(fact) for fact in sorted(implied, key=str))

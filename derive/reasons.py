@@ -59,7 +59,7 @@ def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]
 def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, Hypothesis]]:
     """Return the conditions of an equation that the falsifier can drop, by id, text and hash."""
     return {
-        (equation.id, condition.typed, _key(statement)): (statement, condition)
+        (equation.id, condition.brief, _key(statement)): (statement, condition)
         for statement in equation.statements
         for condition in statement.conditions
         if not isinstance(condition.relation, Predicate)
@@ -83,7 +83,7 @@ def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Rea
     broken = counterexample_without(statement, condition)
     model = tuple(map(inline, broken.model)) if broken else ()
     where = broken.where if broken else ""
-    return Reason(identifier, condition.typed, condition.latex, model, where, _key(statement))
+    return Reason(identifier, condition.brief, condition.latex, model, where, _key(statement))
 
 
 def main() -> None:

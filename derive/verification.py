@@ -19,7 +19,7 @@ from typing import NamedTuple
 from .catalogue import all_equations, equation
 from .check import Check, condition_checks, model_checks, step_checks
 from .equations import Equation, Status
-from .kernel import Judgement, identity
+from .kernel import Judgement, step_key
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,11 @@ class Outcome(NamedTuple):
 
 def tasks(equations: Sequence[Equation]) -> list[Task]:
     """Return a task for each equation; every step is in one of them alone."""
-    stated = frozenset(identity(s) for entry in equations for s in entry.statements)
+    stated = frozenset(step_key(s) for entry in equations for s in entry.statements)
     seen: set[Hashable] = set()
     result = []
     for entry in equations:
-        new = {key: step for step in entry.steps if (key := identity(step)) not in seen}
+        new = {key: step for step in entry.steps if (key := step_key(step)) not in seen}
         seen |= new.keys()
         result.append(Task(entry, new, stated & new.keys()))
     return result
@@ -130,7 +130,7 @@ def _verdicts(work: Sequence[Task], done: Sequence[Outcome]) -> tuple[EquationVe
             task.equation.id,
             task.equation.status,
             (
-                *(check for s in task.equation.steps for check in known[identity(s)]),
+                *(check for s in task.equation.steps for check in known[step_key(s)]),
                 *outcome.equation,
             ),
         )

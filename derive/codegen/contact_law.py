@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..laws import ContactLaw, r, released
+from ..laws import ContactLaw, r, unclamped
 from ..reals import sign
 from ..zero import is_zero
 from .formulas import Formula, formula_module
@@ -47,7 +47,7 @@ def _exact_forms(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     """Return the computed forms of value and slope, in r alone and without bounded exponents."""
     value, slope = law.stable.value, law.stable.slope
     for name, form in reversed(law.stable.names):
-        value, slope = (e.xreplace({name: released(form)}) for e in (value, slope))
+        value, slope = (e.xreplace({name: unclamped(form)}) for e in (value, slope))
     return value, slope
 
 

@@ -77,7 +77,7 @@ def _emit(expr: sp.Expr, target: Target) -> tuple[str, int]:
     if type(expr) in target.functions:
         inner = [emit(argument, target) for argument in _ordered(expr)]
         return f"{target.functions[type(expr)]}({', '.join(inner)})", _ATOM
-    raise EmitError(f"{target.name} has no word for {type(expr).__name__} in {expr}")
+    raise EmitError(f"{target.name} has no form for {type(expr).__name__} in {expr}")
 
 
 def _ordered(expr: sp.Expr) -> tuple[sp.Basic, ...]:
@@ -148,7 +148,7 @@ def _power(expr: sp.Pow, target: Target) -> tuple[str, int]:
         return f"{_wrapped(rest, target, _MUL)} * {emit(sp.sqrt(base), target)}", _MUL
     if exponent.is_Rational and exponent < 0:
         return f"{target.number('1')} / {_wrapped(1 / expr, target, _POW)}", _MUL
-    raise EmitError(f"{target.name} has no word for the power {expr}")
+    raise EmitError(f"{target.name} has no form for the power {expr}")
 
 
 def _wrapped(expr: sp.Expr, target: Target, least: int) -> str:

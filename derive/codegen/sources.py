@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 
 HEADER = "header"
 """The target of the C source's declarations, with the table of C."""
-WIDTH = 96
-WIDEST = 100
+TEXT_WIDTH = 96
+LINE_WIDTH = 100
 
 
 class Line(NamedTuple):
@@ -91,7 +91,7 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
         undefined=StrictUndefined,
     )
-    environment.filters |= {"remarked": remarked, "wrapped": wrapped, "called": called}
+    environment.filters |= {"remarked": remarked, "wrapped": wrapped, "bracketed": bracketed}
     environment.globals |= {"meaning_of": meaning_of, "sentence": sentence}
     return environment
 
@@ -204,7 +204,7 @@ def _header(program: Program, target: Target) -> list[str]:
             else "Contact ends at h = 3 sigma. The rate, its slope and the pressure among the "
             "fields are those in contact; there is contact where the margin is not negative."
         )
-    return [line for text in paragraphs for line in (*textwrap.wrap(text, WIDTH), "")][:-1]
+    return [line for text in paragraphs for line in (*textwrap.wrap(text, TEXT_WIDTH), "")][:-1]
 
 
 def remarked(code: str, remark: str, form: str) -> str:
@@ -214,7 +214,7 @@ def remarked(code: str, remark: str, form: str) -> str:
     '    h = 1; // closure'
     """
     comment = form.format(remark)
-    if len(code) + 1 + len(comment) <= WIDEST:
+    if len(code) + 1 + len(comment) <= LINE_WIDTH:
         return f"{code} {comment}"
     return f"{code[: len(code) - len(code.lstrip())]}{comment}\n{code}"
 
@@ -225,19 +225,19 @@ def wrapped(text: str, width: int, indent: str = "", end: str = "") -> str:
     return f"{end}\n".join(lines)
 
 
-def called(entries: Sequence[str], opening: str, closing: str, explode: bool = False) -> str:
+def bracketed(entries: Sequence[str], opening: str, closing: str, explode: bool = False) -> str:
     """Write a bracket with its entries in Ruff's layout: on its line, on the next, or one a line.
 
     ``explode`` excludes the second layout, as Ruff does for tuples and dictionaries.
 
-    >>> print(called(["a", "b"], "f(", ")"))
+    >>> print(bracketed(["a", "b"], "f(", ")"))
     f(a, b)
     """
     inside = ", ".join(entries)
     indent = " " * (len(opening) - len(opening.lstrip()))
-    if len(opening) + len(inside) + len(closing) <= WIDEST:
+    if len(opening) + len(inside) + len(closing) <= LINE_WIDTH:
         return f"{opening}{inside}{closing}"
-    if not explode and len(indent) + 4 + len(inside) <= WIDEST:
+    if not explode and len(indent) + 4 + len(inside) <= LINE_WIDTH:
         return f"{opening}\n{indent}    {inside}\n{indent}{closing}"
     lines = "".join(f"{indent}    {entry},\n" for entry in entries)
     return f"{opening}\n{lines}{indent}{closing}"

@@ -34,7 +34,7 @@ def execute(options: Options) -> Answer:
     faults = ""
     if options.check:
         try:
-            faults = lemmas.unrecorded + export.compiled(folder)
+            faults = lemmas.unrecorded + export.compile_faults(folder)
         except export.MissingError as fault:
             raise UsageError(str(fault)) from fault
     counts = lemmas.counts

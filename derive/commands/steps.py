@@ -28,10 +28,10 @@ def add_arguments(parser: Parser) -> None:
 
 def execute(options: Options) -> Answer:
     """Check the chain of steps."""
-    from derive.kernel import identity
+    from derive.kernel import step_key
 
     (equation,) = arguments.equations([options.id])
-    numbers = {identity(step): number for number, step in enumerate(equation.steps, start=1)}
+    numbers = {step_key(step): number for number, step in enumerate(equation.steps, start=1)}
     rows = [_row(step, numbers) for step in equation.steps]
     fails = any(row["status"] == "fails" for row in rows)
     return Answer(
@@ -46,13 +46,13 @@ def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
 
     from derive.check import step_checks
     from derive.coq.steps import proved_by_coq
-    from derive.kernel import identity
+    from derive.kernel import step_key
     from derive.typeset.display import latex
 
-    parents = [numbers[identity(parent)] for parent in step.parents]
+    parents = [numbers[step_key(parent)] for parent in step.parents]
     outcomes = step_checks(step)
     return {
-        "step": numbers[identity(step)],
+        "step": numbers[step_key(step)],
         "name": step.name or None,
         "claim": sp.sstr(step.relation),
         "latex": latex(step.relation),

@@ -6,9 +6,9 @@ Overview
     by its hash, whether Coq closed it and by which proof, or the reason why not.  Users without
     Coq read it; a check with Coq fails where it differs.
 Key results
-    Export      the files, from judgements and a record
-    compiled    the faults that Coq finds in them
-    AXIOMS      the axioms that theorems may rest on: those of the classical reals
+    Export            the files, from judgements and a record
+    compile_faults    the faults that Coq finds in them
+    AXIOMS            the axioms that theorems may rest on: those of the classical reals
 """
 
 from __future__ import annotations
@@ -193,7 +193,7 @@ def _file_name(section: str) -> str:
     return "Section_" + re.sub(r"\W+", "_", section).strip("_")
 
 
-def compiled(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
+def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
     """Compile an export; return the faults that Coq reports, empty if all is proved.
 
     MissingError if Coq or a library is not installed.

@@ -51,9 +51,9 @@ def _discharged(step: Step) -> Iterator[str]:
     for premise in premises:
         ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
         fixed = "intros t Ht; " if premise.timed else ""
-        yield f"assert ({premise.label}_met : {premise.said}) by ({fixed}first [{ways}])."
-    labels = step.labels | {p.said: f"{p.label}_met" for p in premises}
-    cited = (labels[p.said] for p in first.statement.premises)
+        yield f"assert ({premise.label}_met : {premise.proposition}) by ({fixed}first [{ways}])."
+    labels = step.labels | {p.proposition: f"{p.label}_met" for p in premises}
+    cited = (labels[p.proposition] for p in first.statement.premises)
     yield f"exact ({' '.join((first.name, *cited))})."
 
 

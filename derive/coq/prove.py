@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 from ..catalogue import all_equations
-from .export import HEAD, Export, compiled
+from .export import HEAD, Export, compile_faults
 from .steps import RECORD, Row, Step
 
 _FOLDER = Path("build/prove")
@@ -24,43 +24,43 @@ _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default T
 """The time limits are in seconds, for one sentence of a proof; each of several tactics has 12."""
 
 
-def attempt(before: Export, hoped: set[str]) -> tuple[dict[str, Row], set[str]]:
-    """Try the steps ``hoped`` for; return the new record and those to try again.
+def attempt(before: Export, candidates: set[str]) -> tuple[dict[str, Row], set[str]]:
+    """Try to close steps, by their keys; return the new record and the keys to try again.
 
-    These cite a step that was taken as closed and is open now.  Of such steps, those that cite
-    none are not tried again, so that repeated attempts end.
+    A step is tried again if it cites a candidate that stays open: it was stated as if that were
+    closed.  Candidates that cite no such step are not tried again, so that repeated attempts end.
     """
     known = before.known
-    hopeful: dict[str, Row] = {**known, **{h: {"closed": True} for h in hoped}}
-    export = Export(before.equations, hopeful)
+    tentative: dict[str, Row] = {**known, **{h: {"closed": True} for h in candidates}}
+    export = Export(before.equations, tentative)
     texts = {}
     for step in export.steps:
         row = known.get(step.key, {})
-        text = _lemma(export, step, hopeful.get(step.key, row))
+        text = _lemma(export, step, tentative.get(step.key, row))
         if "\nProof." in text and text == _lemma(before, step, row):
             text = re.sub(r"Proof\..*Qed\.", "Admitted.", text, flags=re.DOTALL)
-        elif hopeful.get(step.key, row).get("closed"):
+        elif tentative.get(step.key, row).get("closed"):
             text = _lemma(export, step, {"closed": True})
         texts[step.name] = f"{text}Abort All.\nLocate {step.name}.\n"
     output = _session(export, "".join(texts.values()))
     closed = set(re.findall(r"Constant Top\.(step_\w+)", output))
-    lost = {s.name for s in export.steps if s.closed} - closed
+    failed = {s.name for s in export.steps if s.closed} - closed
     ways = {name: int(way) for name, way in re.findall(r"WAY (step_\w+) (\d+)", output)}
     rows: dict[str, Row] = {}
-    again = set()
+    retry = set()
     for step in export.steps:
-        retried = lost & (set(re.findall(r"step_\w+", texts[step.name])) - {step.name})
+        retried = failed & (set(re.findall(r"step_\w+", texts[step.name])) - {step.name})
         new: Row = {"rule": step.rule, "closed": step.name in closed and not retried}
         if step.name in ways:
             new["way"] = ways[step.name]
-        elif "Admitted." in texts[step.name] and "way" in hopeful.get(step.key, {}):
-            new["way"] = hopeful[step.key]["way"]
+        elif "Admitted." in texts[step.name] and "way" in tentative.get(step.key, {}):
+            new["way"] = tentative[step.key]["way"]
         if not new["closed"]:
             new["reason"] = "no tactic of the exporter closes it"
         if retried:
-            again.add(step.key)
+            retry.add(step.key)
         rows[step.key] = new
-    return rows, again
+    return rows, retry
 
 
 def _lemma(export: Export, step: Step, row: Row) -> str:
@@ -74,7 +74,7 @@ def _lemma(export: Export, step: Step, row: Row) -> str:
 def _session(export: Export, lemmas: str) -> str:
     """Return Coq's output for lemmas; a failure ends one of them, not the session."""
     export.write(_FOLDER, {"World": export.world})
-    if fault := compiled(_FOLDER, ("World.vo",)):
+    if fault := compile_faults(_FOLDER, ("World.vo",)):
         sys.exit(fault)
     done = subprocess.run(
         ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"],
@@ -88,9 +88,9 @@ def main() -> None:
     """Try the open steps until no new one can be cited, and write the record."""
     export = Export(all_equations())
     rows = dict(export.known)
-    hoped = {s.key for s in export.steps if not s.closed}
-    while hoped:
-        rows, hoped = attempt(export, hoped)
+    candidates = {s.key for s in export.steps if not s.closed}
+    while candidates:
+        rows, candidates = attempt(export, candidates)
         export = Export(export.equations, rows)
     lines = ",\n".join(f'"{key}": {json.dumps(rows[key])}' for key in sorted(rows))
     RECORD.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")

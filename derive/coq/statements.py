@@ -36,16 +36,16 @@ _LAW = (
 
 @dataclass(frozen=True)
 class Premise:
-    """One premise of a lemma; ``said`` is its proposition."""
+    """One premise of a lemma: its name, its proposition, and the relation that this states."""
 
     label: str
-    said: str
+    proposition: str
     relation: sp.Basic = sp.true
 
     @property
     def timed(self) -> bool:
         """Return whether it holds for every t >= 0."""
-        return self.said.startswith("forall t, 0 <= t -> ")
+        return self.proposition.startswith("forall t, 0 <= t -> ")
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Statement:
     @property
     def text(self) -> str:
         """Return the proposition."""
-        return " ->\n  ".join((*(f"({p.said})" for p in self.premises), self.conclusion))
+        return " ->\n  ".join((*(f"({p.proposition})" for p in self.premises), self.conclusion))
 
 
 @cache
@@ -72,7 +72,9 @@ def statement(judgement: Judgement) -> Statement:
     premises += _assumed(judgement)
     premises += _smooth(judgement)
     conclusion = printer.always(claim(judgement))
-    if any(re.search(r"\bphi\b", text) for text in (conclusion, *(p.said for p in premises))):
+    if any(
+        re.search(r"\bphi\b", text) for text in (conclusion, *(p.proposition for p in premises))
+    ):
         premises += [Premise(label, said) for label, said in _LAW]
     return Statement(_numbered(premises), conclusion)
 
@@ -89,8 +91,8 @@ def key(judgement: Judgement) -> str:
             cited.append(key(parent))
         except printer.UntranslatableError:
             continue
-    said = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
-    return hashlib.sha256(said.encode()).hexdigest()[:12]
+    text = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
 @cache
@@ -138,8 +140,8 @@ def _smooth(judgement: Judgement) -> list[Premise]:
     relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
     rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
     fields = {printer.field(f) for d in rates for f in d.atoms(AppliedUndef)}
-    said = "forall t, 0 <= t -> ex_derive {} t"
-    return [Premise(f"smooth_{field}", said.format(field)) for field in sorted(fields)]
+    form = "forall t, 0 <= t -> ex_derive {} t"
+    return [Premise(f"smooth_{field}", form.format(field)) for field in sorted(fields)]
 
 
 def _of_quantity(atom: sp.Expr) -> bool:
@@ -154,15 +156,15 @@ def _label(text: str) -> str:
 
 def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
     """Return the premises, each once, with distinct labels."""
-    said: dict[str, Premise] = {}
+    distinct: dict[str, Premise] = {}
     for premise in premises:
-        said.setdefault(premise.said, premise)
+        distinct.setdefault(premise.proposition, premise)
     taken: dict[str, int] = {}
     result = []
-    for premise in said.values():
+    for premise in distinct.values():
         count = taken[premise.label] = taken.get(premise.label, 0) + 1
         label = premise.label if count == 1 else f"{premise.label}_{count}"
-        result.append(Premise(label, premise.said, premise.relation))
+        result.append(Premise(label, premise.proposition, premise.relation))
     return tuple(result)
 
 

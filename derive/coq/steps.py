@@ -68,7 +68,7 @@ class Step:
     @property
     def assumed(self) -> bool:
         """Return whether the claim is one of the premises, so that no proof is needed."""
-        return any(p.said == self.statement.conclusion for p in self.statement.premises)
+        return any(p.proposition == self.statement.conclusion for p in self.statement.premises)
 
     @property
     def introduction(self) -> str:
@@ -79,19 +79,21 @@ class Step:
     @cached_property
     def labels(self) -> dict[str, str]:
         """Return the label of each premise."""
-        return {p.said: p.label for p in self.statement.premises}
+        return {p.proposition: p.label for p in self.statement.premises}
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""
         return (other.closed or other.assumed) and all(
-            p.said in self.labels for p in other.statement.premises
+            p.proposition in self.labels for p in other.statement.premises
         )
 
     def cited(self, other: Step) -> str:
         """Return the proof term of another step, from this one's premises."""
         if other.statement.conclusion in self.labels:
             return self.labels[other.statement.conclusion]
-        return " ".join((other.name, *(self.labels[p.said] for p in other.statement.premises)))
+        return " ".join(
+            (other.name, *(self.labels[p.proposition] for p in other.statement.premises))
+        )
 
     def now(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
         """Return the proof term of another step's claim at a time."""
@@ -149,7 +151,7 @@ class Step:
     def missing(self) -> list[tuple[Step, list[Premise]]]:
         """Return the parents with premises that this step lacks, and these premises."""
         lacking = (
-            (p, [q for q in p.statement.premises if q.said not in self.labels])
+            (p, [q for q in p.statement.premises if q.proposition not in self.labels])
             for p in self.parents
         )
         return [(parent, premises) for parent, premises in lacking if premises]
@@ -158,7 +160,7 @@ class Step:
     def hypotheses(self) -> list[Step]:
         """Return the premises with a relation, as steps to cite."""
         return [
-            Step(p.label, self.judgement, Statement((p,), p.said), (), p.relation)
+            Step(p.label, self.judgement, Statement((p,), p.proposition), (), p.relation)
             for p in self.statement.premises
             if not isinstance(p.relation, (BooleanTrue, Predicate))
         ]

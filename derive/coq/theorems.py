@@ -5,7 +5,7 @@ Overview
     finds the values that are inserted into them.
 Key results
     proof       a proof, empty where no theorem is known for the step
-    template    a template of Coq
+    template    a template of proofs
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ _LOAD = symbol("U_a")
 _WEAR = symbol("u_c")
 _RATIO = sp.Symbol("ratio", real=True)
 
-Holes = dict[str, Any]
+Values = dict[str, Any]
 
 
-def _separates(step: Step) -> Holes:
+def _separates(step: Step) -> Values:
     integral = step.relation.rhs
     _, start, y = integral.limits[0]
     first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
@@ -45,20 +45,20 @@ def _separates(step: Step) -> Holes:
     return {"pace": step.relation.lhs / t, "integral": integral, "rates": rates, "first": first}
 
 
-def _by_parts(step: Step) -> Holes:
+def _by_parts(step: Step) -> Values:
     assert isinstance(step.judgement.rule, ByParts)
     (integral,) = step.frontier[0].relation.atoms(sp.Integral)
     return {"integral": integral}
 
 
-def _grows(step: Step) -> Holes:
+def _grows(step: Step) -> Values:
     grown = step.relation.gts
     bound = next(s for s in step.frontier if s.relation.has(sp.Derivative(grown, t)))
     start = next(s for s in step.frontier if s.relation.lhs == grown.subs(t, 0))
     return {"name": field(grown), "bound": bound, "start": start}
 
 
-def _integrates(step: Step) -> Holes:
+def _integrates(step: Step) -> Values:
     slope = sp.Derivative(step.relation.lhs, t)
     rate = next(s for s in step.frontier if s.relation.lhs == slope)
     (driving,) = rate.relation.rhs.atoms(sp.Derivative)
@@ -66,7 +66,7 @@ def _integrates(step: Step) -> Holes:
     return {"rate": rate, "driving": driving, "factor": factor}
 
 
-def _diverges(step: Step) -> Holes:
+def _diverges(step: Step) -> Values:
     (growth,) = (s for s in step.frontier if s.timed)
     flat = sp.Symbol("flat")
     inside = step.relation.lhs.args[0].xreplace({growth.relation.gts: flat})
@@ -74,7 +74,7 @@ def _diverges(step: Step) -> Holes:
     return {"growth": growth, "start": start, "slope": slope, "speed": growth.relation.lts / t}
 
 
-def _unbounded(step: Step) -> Holes:
+def _unbounded(step: Step) -> Values:
     u, rate = step.relation.lhs.args[0], step.parents[0].relation.rhs
     bound = next(s for s in step.frontier if isinstance(getattr(s.relation, "lts", 0), sp.Abs))
     wear, load = symbol("u_s"), sp.Symbol("load", real=True)
@@ -89,11 +89,11 @@ def _unbounded(step: Step) -> Holes:
     return {"wear": wear, "load": load, "rate": flat, "bound": bound, "always": always}
 
 
-def _accumulates(step: Step) -> Holes:
+def _accumulates(step: Step) -> Values:
     return {"limit": next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)}
 
 
-def _squeezed(step: Step) -> Holes:
+def _squeezed(step: Step) -> Values:
     between = next(s for s in step.frontier if isinstance(s.relation, sp.And))
     inside = step.relation.lhs.args[0]
     above = next(part for part in between.relation.args if part.lts == inside)
@@ -128,7 +128,7 @@ def _affine(expr: sp.Expr) -> _Affine | None:
     return None
 
 
-def _at_infinity(step: Step) -> Holes | None:
+def _at_infinity(step: Step) -> Values | None:
     """Return A and B of ``u A(1/u) + load B(1/u)``, or exponentials that vanish."""
     inside, u = step.relation.lhs.args[0], step.diverging.relation.lhs.args[0]
     z = sp.Symbol("z", positive=True)
@@ -142,7 +142,7 @@ def _at_infinity(step: Step) -> Holes | None:
     return {"u": u, "parts": parts, "affine": next(iter(parts.values()))[1]}
 
 
-def _first_order(step: Step) -> Holes | None:
+def _first_order(step: Step) -> Values | None:
     law, deviation, ratio = step.parents[:3]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     function = in_terms_of(law.relation.rhs, quantity, _RATIO)
@@ -153,7 +153,7 @@ def _first_order(step: Step) -> Holes | None:
     return {"of_ratio": function, "slope": slope, "affine": affine}
 
 
-def _drift(step: Step) -> Holes | None:
+def _drift(step: Step) -> Values | None:
     inside = step.parents[0].relation.lhs.args[0]
     rate = next(d for d in inside.atoms(sp.Derivative) if d.has(AppliedUndef) and t in d.variables)
     now, load = sp.symbols("speed_now load", real=True)
@@ -163,17 +163,19 @@ def _drift(step: Step) -> Holes | None:
         return None
     speed = sp.expand(now - sp.diff(flat, t))
     equations = (p for p in step.statement.premises if isinstance(p.relation, sp.Equality))
-    said = {part: p for p in equations for part in p.relation.args}
+    premises = {part: p for p in equations for part in p.relation.args}
     return {
         "speed": speed,
         "affine": affine,
-        "mean": said[symbol("U_mean")],
-        "periodic": said[_LOAD],
-        "smooth": next(p for p in step.statement.premises if p.said.endswith("continuous U_a t")),
+        "mean": premises[symbol("U_mean")],
+        "periodic": premises[_LOAD],
+        "smooth": next(
+            p for p in step.statement.premises if p.proposition.endswith("continuous U_a t")
+        ),
     }
 
 
-def _derivative(step: Step) -> Holes:
+def _derivative(step: Step) -> Values:
     (slope,) = step.relation.atoms(sp.Derivative)
     used = {
         s.relation.lhs: s
@@ -185,7 +187,7 @@ def _derivative(step: Step) -> Holes:
     return {"slope": slope, "value": value, "used": used.values()}
 
 
-def _lipschitz(step: Step) -> Holes:
+def _lipschitz(step: Step) -> Values:
     low, high = sorted(step.relation.atoms(sp.tanh), key=sp.count_ops)
     middle = next(part.gts for part in step.relation.args if part.lts == 0)
     factor = sp.diff(middle.xreplace({high: _RATIO}), _RATIO)
@@ -194,25 +196,25 @@ def _lipschitz(step: Step) -> Holes:
     return {"low": low.args[0], "high": high.args[0], "forms": forms}
 
 
-def _logarithmic_slope(step: Step) -> Holes:
+def _logarithmic_slope(step: Step) -> Values:
     assert isinstance(step.judgement.rule, LogarithmicSlope)
     function = step.judgement.rule.function(_RATIO)
     return {"function": function, "derivative": sp.diff(function, _RATIO)}
 
 
-def _threshold(step: Step) -> Holes | None:
+def _threshold(step: Step) -> Values | None:
     point, level = step.relation.args
     if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
         return {"point": point.gts, "level": level.gts}
     return None
 
 
-def _nothing(_: Step) -> Holes:
+def _nothing(_: Step) -> Values:
     """Return no values: the step itself has all that its proof needs."""
     return {}
 
 
-_HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
+_VALUES: Mapping[str, Callable[[Step], Values | None]] = {
     "Accumulates": _accumulates,
     "AtInfinity": _at_infinity,
     "Differentiate": _nothing,
@@ -237,8 +239,8 @@ _HOLES: Mapping[str, Callable[[Step], Holes | None]] = {
 def proof(step: Step) -> str:
     """Return a proof by a general theorem, empty where there is none for the step."""
     rule = "Threshold" if isinstance(step.relation, sp.Equivalent) else step.rule
-    holes = _HOLES[rule](step) if rule in _HOLES else None
-    return "" if holes is None else str(getattr(_macros(), rule)(step, **holes))
+    values = _VALUES[rule](step) if rule in _VALUES else None
+    return "" if values is None else str(getattr(_macros(), rule)(step, **values))
 
 
 @cache
@@ -247,7 +249,7 @@ def _macros() -> Any:
 
 
 def template(name: str) -> Template:
-    """Return a template of Coq; Jinja2 is imported when a proof is written."""
+    """Return a template of proofs; Jinja2 is imported when the first one is written."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(

@@ -46,7 +46,7 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     known = {ROUGH_BEARING.relation, domain(u_cum)}
     stated = [c for i in ids for c in catalogue.equation(i).conditions if c.relation not in known]
     settings = dict.fromkeys(c.text for c in stated if c.is_setting)
-    conditions = dict.fromkeys(c.typed for c in stated if not c.is_setting)
+    conditions = dict.fromkeys(c.brief for c in stated if not c.is_setting)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))
     setting = f"; setting: {', '.join(settings)}" if settings else ""
     needed = f"; needs {', '.join(conditions)}" if conditions else ""

@@ -24,7 +24,7 @@ from .relations import Relations
 from .symbols import compliance, largest_rate, load, number, pressure, ratio, sigma, u
 from .symbols import wear_per_pressure as per_pressure
 
-Totals = dict[sp.Symbol, sp.Expr]
+Adjoints = dict[sp.Symbol, sp.Expr]
 
 
 def by_constant(name: str) -> sp.Symbol:
@@ -41,12 +41,12 @@ def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Funct
         stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
         names = (*names, stiffening)
         seed = per_pressure * p_max * slope / stiffening[0]
-        totals: Totals = {per_pressure: pressure, p_max: per_pressure * value / stiffening[0]}
+        adjoints: Adjoints = {per_pressure: pressure, p_max: per_pressure * value / stiffening[0]}
     else:
-        seed, totals = largest_rate * slope, {largest_rate: value}
-    totals[ratio] = seed
-    sweep = _reverse_sweep(chain, totals, "rate_{}")
-    slopes = (totals.get(name, sp.Integer(0)) for name in (load, *constants))
+        seed, adjoints = largest_rate * slope, {largest_rate: value}
+    adjoints[ratio] = seed
+    sweep = _reverse_sweep(chain, adjoints, "rate_{}")
+    slopes = (adjoints.get(name, sp.Integer(0)) for name in (load, *constants))
     arguments = (pressure, u, load) if compliant else (u, load)
     return pruned("rate_gradient", arguments, (*chain, *names, *sweep), *slopes)
 
@@ -54,10 +54,10 @@ def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Funct
 def margin_gradient(margin: Function, constants: Sequence[sp.Symbol]) -> Function:
     """Return the derivatives of the margin with respect to each constant."""
     value = number("margin")
-    totals: Totals = {value: sp.Integer(1)}
+    adjoints: Adjoints = {value: sp.Integer(1)}
     chain = (*margin.assignments, (value, margin.results[0]))
-    sweep = _reverse_sweep(chain, totals, "margin_{}")
-    slopes = (totals.get(name, sp.Integer(0)) for name in constants)
+    sweep = _reverse_sweep(chain, adjoints, "margin_{}")
+    slopes = (adjoints.get(name, sp.Integer(0)) for name in constants)
     return pruned("margin_gradient", margin.arguments, (*margin.assignments, *sweep), *slopes)
 
 
@@ -65,33 +65,33 @@ def parameter_gradient(
     constants: Sequence[Assignment], parameters: Sequence[sp.Symbol]
 ) -> Function:
     """Return the derivatives with respect to the parameters, from those by the constants."""
-    totals: Totals = {name: by_constant(name.name) for name, _ in constants}
+    adjoints: Adjoints = {name: by_constant(name.name) for name, _ in constants}
     computed = [(name, value) for name, value in constants if name != value]
-    sweep = _reverse_sweep(computed, totals, "total_{}")
-    slopes = (totals[name] for name in parameters)
+    sweep = _reverse_sweep(computed, adjoints, "total_{}")
+    slopes = (adjoints[name] for name in parameters)
     return pruned("parameter_gradient", (), (*computed, *sweep), *slopes)
 
 
 def _reverse_sweep(
-    chain: Sequence[Assignment], totals: Totals, form: str
+    chain: Sequence[Assignment], adjoints: Adjoints, form: str
 ) -> tuple[Assignment, ...]:
     """Replace derivatives by assigned names with those by the symbols of their expressions.
 
-    ``totals`` has the derivatives by name and is updated in place; returned are assignments of
-    intermediate derivatives, whose names have this form.
+    ``adjoints`` are the derivatives of the result by name, updated in place; returned are
+    assignments of intermediate ones, with names of this form.
     """
     intermediates: list[Assignment] = []
     for name, expr in reversed(chain):
-        if name not in totals:
+        if name not in adjoints:
             continue
-        total = totals.pop(name)
-        if not total.is_Atom:
+        adjoint = adjoints.pop(name)
+        if not adjoint.is_Atom:
             symbol = number(form.format(name.name))
-            intermediates.append((symbol, sp.factor_terms(total)))
-            total = symbol
+            intermediates.append((symbol, sp.factor_terms(adjoint)))
+            adjoint = symbol
         for inner in sorted(expr.free_symbols, key=str):
-            part = total * _partial(expr, inner, name)
-            totals[inner] = totals.get(inner, sp.Integer(0)) + part
+            part = adjoint * _partial(expr, inner, name)
+            adjoints[inner] = adjoints.get(inner, sp.Integer(0)) + part
     return tuple(intermediates)
 
 

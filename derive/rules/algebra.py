@@ -30,7 +30,7 @@ class Substitute(Rule):
     """A claim and ``l = r`` give the claim with r for l."""
 
     words = "Insert {others} into {0}."
-    asks = ("the claim", "an equality")
+    premise_names = ("the claim", "an equality")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *definitions = premises
@@ -63,7 +63,7 @@ class Solve(Rule):
 
     unknown: sp.Expr
     words = "Solve {0} for {unknown}."
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, x = equality(premises[0]), sp.Dummy(real=True)
@@ -86,7 +86,7 @@ class Multiply(Rule):
 
     factor: sp.Expr
     words = "Multiply {0} by {factor}."
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
@@ -99,7 +99,7 @@ class Restrict(Rule):
     """Where a relation holds, a piecewise expression is its branch, and ``|x| = x`` if x > 0."""
 
     words = "Keep the branch of {0} on which {others} holds."
-    asks = ("the claim", "the relation")
+    premise_names = ("the claim", "the relation")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, condition = premises
@@ -194,7 +194,7 @@ class Consequence(Rule):
 
     claim: sp.Basic
     words = "Insert {others} into {0}."
-    asks = ("the claim",)
+    premise_names = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
@@ -226,7 +226,7 @@ class Discharge(Rule):
 
     hypothesis: Hypothesis
     words = "The hypothesis of {0} is met by {others}."
-    asks = ("the claim",)
+    premise_names = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         first, *known = premises
@@ -249,7 +249,7 @@ class Forget(Rule):
 
     hypothesis: Hypothesis
     words = "{0} does not depend on that value."
-    asks = ("the claim",)
+    premise_names = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises

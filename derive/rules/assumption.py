@@ -16,7 +16,7 @@ from ..symbols import DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
-from .proving import facts_of, falls, smooth, told, undefined
+from .proving import facts_of, in_words, is_contact_law, smooth, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -54,7 +54,7 @@ class Assume(Rule):
         known = {Kind.MODEL: WORDS, Kind.INITIAL: START}.get(kind, (relation,))
         if law is None and relation not in known:
             raise RuleError(f"{given.text}: no equation of the model")
-        if law is not None and not falls(law):
+        if law is not None and not is_contact_law(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = claim_of(relation)
         equation = isinstance(claim, (Equality, Limit)) or relation == EXPANSION.relation
@@ -92,7 +92,7 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
             goals.append(above(value, 0, evaluate=False))
     for goal in goals:
         if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
-            raise RuleError(f"missing premise: {told(goal)}")
+            raise RuleError(f"missing premise: {in_words(goal)}")
     return tuple(map(Hypothesis, goals))
 
 

@@ -115,7 +115,7 @@ class OrderEquation(Rule):
         "{others}, and compare the terms of order {order} in 1/m."
     )
     source = "Sanders, Verhulst, Murdock, 2007"
-    asks = ("the pressure",)
+    premise_names = ("the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, n = equality(premises[0]), int(self.order)
@@ -163,7 +163,7 @@ class Averaging(Rule):
 
     claim: sp.Equality
     source = "Sanders, Verhulst, Murdock, 2007"
-    asks = ("the equation of an order",)
+    premise_names = ("the equation of an order",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, (name, value) = equality(premises[0]), self.claim.args

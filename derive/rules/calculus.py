@@ -42,7 +42,7 @@ class Integrate(Rule):
 
     words = "Integrate {0} over time, from {others}."
     source = "fundamental theorem of calculus"
-    asks = ("the rate", "y(0)", "x(0)")
+    premise_names = ("the rate", "y(0)", "x(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, start_y, start_x = premises
@@ -67,7 +67,7 @@ class Grows(Rule):
 
     words = "Integrate the constant lower bound of {0}, from {others}."
     source = "mean value theorem on [0, t]"
-    asks = ("the bound of the rate", "u(0)")
+    premise_names = ("the bound of the rate", "u(0)")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         bound, start = premises
@@ -91,7 +91,7 @@ class Differentiate(Rule):
 
     words = "Differentiate {0} with respect to time."
     source = "chain rule"
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
@@ -116,7 +116,7 @@ class RigidLimit(Rule):
     """
 
     words = "Let the stiffness tend to infinity in {0}: the support is rigid."
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
@@ -146,7 +146,7 @@ class ChangeClock(Rule):
 
     words = "Measure time in periods, in {all}."
     source = "chain rule"
-    asks = ("the scale of y", "t = T tau")
+    premise_names = ("the scale of y", "t = T tau")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         scaled, clock = map(equality, premises)

@@ -22,20 +22,20 @@ from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import facts_of, falls, open_set, require_defined, smooth, undefined
+from .proving import facts_of, is_contact_law, open_set, require_defined, smooth, undefined
 from .reading import equality, functions
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
 
 
-def _free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
+def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
     """Refuse an expression unless it has data alone, of which one may vary, the others fixed."""
     if functions(expr) or any(s.name not in DATA for s in expr.free_symbols):
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
     definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
-    if len({r for r in (h.relation for h in hypotheses) if _is_law(r)}) > 1:
+    if len({r for r in (h.relation for h in hypotheses) if _is_pressure_law(r)}) > 1:
         raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
     for hypothesis in hypotheses:
         relation, kind = hypothesis.relation, hypothesis.kind
@@ -67,13 +67,13 @@ def _leaves_data_free(relation: sp.Basic) -> bool:
     if isinstance(relation, sp.LessThan):
         positive = holds(sp.Gt(relation.rhs, 0)) and not [*undefined(relation.rhs)]
         return relation.lhs == sp.Abs(LOAD) and positive
-    if not _is_law(relation):
+    if not _is_pressure_law(relation):
         return relation in _SETTINGS
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)
-    return law.free_symbols <= {r} and falls(law)
+    return law.free_symbols <= {r} and is_contact_law(law)
 
 
-def _is_law(relation: sp.Basic) -> bool:
+def _is_pressure_law(relation: sp.Basic) -> bool:
     return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
@@ -87,13 +87,13 @@ class DataDerivative(Rule):
     claim: sp.Equality
     parameter: sp.Symbol
     words = "Differentiate {0} with respect to {parameter}, with {others}."
-    asks = ("the result",)
+    premise_names = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         result = equality(premises[0])
         if not result.lhs.is_Symbol or self.parameter.name not in DATA:
             raise RuleError(f"missing premise: {self.parameter} is one of the data")
-        _free(self.parameter, result.rhs, *premises)
+        _require_free(self.parameter, result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
         left, right = (side.xreplace({of_result: slope}) for side in self.claim.args)
@@ -109,7 +109,7 @@ class OneSign(Rule):
 
     parameter: sp.Expr
     words = "Differentiate the rate {0} with respect to {parameter}: the sign is constant."
-    asks = ("the result",)
+    premise_names = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law = equality(premises[0])

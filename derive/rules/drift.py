@@ -49,7 +49,7 @@ class FirstOrder(Rule):
 
     words = "Expand the contact law about the limit of the closure ratio, with {all}."
     source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
-    asks = ("the rate", "the deviation", "the limit of the ratio", "the limit of the rate")
+    premise_names = ("the rate", "the deviation", "the limit of the ratio", "the limit of the rate")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, deviation, ratio, speed, *_ = premises
@@ -86,7 +86,7 @@ class LogarithmicDrift(Rule):
 
     words = "Integrate {0} over many periods: the integral of the mean is a logarithm."
     source = "a periodic function over t integrates to its mean times ln N and a bounded rest"
-    asks = ("the approach of the rate",)
+    premise_names = ("the approach of the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         approach = limit_in_time(premises[0])
@@ -127,7 +127,7 @@ class LogarithmicGrowth(Rule):
         "Separate the variables of {0}: the exponential of the wear grows equally in every cycle."
     )
     source = "DLMF 10.32.1; Cesaro's theorem"
-    asks = ("the limit",)
+    premise_names = ("the limit",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         growth = limit_in_time(premises[0])
@@ -157,7 +157,7 @@ class LeadingTerm(Rule):
         "quotient with the left side tends to one.  Take logarithms."
     )
     source = "L'Hopital's rule"
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, (left, leading) = equality(premises[0]), self.claim.args

@@ -43,7 +43,7 @@ class Diverges(Rule):
 
     expr: sp.Expr
     words = "By {0}, the wear grows without bound, and with it {expr}."
-    asks = ("the growth",)
+    premise_names = ("the growth",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         growth = inequality(premises[0])
@@ -111,7 +111,7 @@ class Unbounded(Rule):
         "would be bounded away from zero."
     )
     source = "extreme value theorem"
-    asks = ("the rate",)
+    premise_names = ("the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, *facts = premises
@@ -168,7 +168,7 @@ class AtInfinity(Rule):
     small: sp.Expr
     words = "By {0}, {small} tends to zero: expand in it, uniformly in bounded loads."
     source = "Taylor's theorem"
-    asks = ("the growth",)
+    premise_names = ("the growth",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         u, inside = growing(premises[0]), self.claim.lhs.args[0]
@@ -221,7 +221,7 @@ class Intermittent(Rule):
 
     words = "The limit of the rate in {0} holds during a fixed part of every period, by {others}."
     source = "mean value theorem on the part of the period in contact"
-    asks = ("the rate", "the fraction in contact", "the least wear")
+    premise_names = ("the rate", "the fraction in contact", "the least wear")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, part, start, *_ = premises

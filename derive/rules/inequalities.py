@@ -45,7 +45,7 @@ class Monotone(Rule):
     function: sp.Lambda
     words = "Apply a monotone function to both sides of {0}."
     source = "the derivative of the function has one sign between the two sides"
-    asks = ("the bound",)
+    premise_names = ("the bound",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         bound, at = inequality(premises[0]), sp.Dummy(real=True)

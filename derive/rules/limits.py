@@ -64,7 +64,7 @@ class OnePeriodLater(Rule):
     """A claim that holds at every time holds one period later."""
 
     words = "One period later, {0}."
-    asks = ("the claim",)
+    premise_names = ("the claim",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         claim = premises[0].claim
@@ -88,7 +88,7 @@ class Vanishes(Rule):
 
     words = "The bounds in {0} tend to zero, since the roughness grows by {others}."
     source = "squeeze theorem"
-    asks = ("the bounds", "the growth")
+    premise_names = ("the bounds", "the growth")
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         squeeze, divergence = premises
@@ -183,7 +183,7 @@ class Accumulates(Rule):
 
     words = "Integrate the limit {0} over one period."
     source = "mean value theorem on [t, t + T]"
-    asks = ("the limit of the rate",)
+    premise_names = ("the limit of the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = limit_in_time(premises[0])

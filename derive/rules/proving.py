@@ -24,7 +24,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from ..claims import Asymptotic, Continuous, Limit
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
-from ..language import bound, certain, needs, told_by
+from ..language import bound, certain, implied_by, needs
 from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
@@ -52,7 +52,7 @@ def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     for premise in premises:
         if not isinstance(premise.claim, Asymptotic):
             found.add(premise.relation)
-        found |= {need for part in _parts((premise,)) for need in told_by(part)}
+        found |= {need for part in _parts((premise,)) for need in implied_by(part)}
         found |= {h.relation for h in premise.hypotheses}
     return frozenset(found | set(map(Continuous, _continuous_fields(found))))
 
@@ -99,11 +99,11 @@ def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basi
     For a neighbourhood of the end of a limit, ``near`` are expressions defined there too.
     """
     for goal in undefined(expr, *premises, near=near):
-        raise RuleError(f"missing premise: {told(goal)}")
+        raise RuleError(f"missing premise: {in_words(goal)}")
 
 
-def told(goal: sp.Basic) -> str:
-    """Return a relation as text, in words if it states the existence of a value."""
+def in_words(goal: sp.Basic) -> str:
+    """Return a relation as text; one that states the existence of a value, in words."""
     return f"{goal.args[0]} has a value" if goal.has(sp.zoo) else str(goal)
 
 
@@ -115,7 +115,7 @@ def undefined(
     Those that follow from premises, or from the existence of ``near``, are omitted.
     """
     ends = {part for whole in near for part in certain(whole)}
-    facts = facts_of(premises).union(*map(told_by, ends))
+    facts = facts_of(premises).union(*map(implied_by, ends))
     needed = _needed(expr, _parts(premises) | ends, facts)
     return (goal for goal in needed if not holds(goal, facts))
 
@@ -222,7 +222,7 @@ def smooth_everywhere(expr: sp.Expr) -> bool:
 
 
 @cache
-def falls(law: sp.Expr) -> bool:
+def is_contact_law(law: sp.Expr) -> bool:
     """Return whether a contact law ``phi(r)`` is positive, smooth and decreasing."""
     return smooth_everywhere(law) and sign(law) == 1 and sign(sp.diff(law, r)) == -1
 

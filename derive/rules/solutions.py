@@ -42,7 +42,7 @@ class Follows(Rule):
 
     words = "The pressure is the only root of {0}, and a continuous function of wear and load."
     source = "implicit function theorem"
-    asks = ("the equation of the pressure",)
+    premise_names = ("the equation of the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, facts = equality(premises[0]), facts_of(premises)
@@ -74,7 +74,7 @@ class Separate(Rule):
     claim: sp.Equality
     words = "Separate the variables of {0} and integrate from the start, with {others}."
     source = "chain rule; implicit function theorem"
-    asks = ("the rate",)
+    premise_names = ("the rate",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, *others = premises
@@ -108,7 +108,7 @@ class ByParts(Rule):
     primitive: sp.Expr
     rest: sp.Expr = sp.S.Zero
     source = "fundamental theorem of calculus; integration by parts"
-    asks = ("the integral",)
+    premise_names = ("the integral",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
@@ -137,7 +137,7 @@ class Lambert(Rule):
     argument: sp.Expr
     words = "Lambert's function solves {0}: it has the form w e^w = x with w > 0, so that w = W(x)."
     source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
-    asks = ("the equation",)
+    premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, w = equality(premises[0]), self.argument

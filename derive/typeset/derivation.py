@@ -25,7 +25,7 @@ from . import formula
 from .display import inline, latex
 from .macros import macro_name, macros, rendered
 from .present import presentable
-from .reading import typed
+from .reading import in_latex
 
 if TYPE_CHECKING:
     from ..equations import Equation
@@ -108,7 +108,7 @@ class Derivations:
     def _step(self, statement: Judgement, of: str) -> StepText:
         parents = [self._name(parent, of) for parent in statement.parents]
         parts = _FIXED.split(statement.rule.sentence(*parents, write=_written))
-        sentence = "".join(part if part[:1] in ("$", "[") else typed(part) for part in parts)
+        sentence = "".join(part if part[:1] in ("$", "[") else in_latex(part) for part in parts)
         return self._result(statement, of)._replace(sentence=sentence, remark=statement.remark)
 
     def _result(self, statement: Judgement, of: str) -> StepText:

@@ -22,7 +22,7 @@ from sympy.core.function import AppliedUndef
 from ..equations import Equation
 from ..symbols import QUANTITIES, Quantity
 from .breaking import broken
-from .reading import typed
+from .reading import in_latex
 
 _DIGITS = ("Zero", "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight", "Nine")
 
@@ -131,7 +131,7 @@ def meaning(quantity: Quantity) -> str:
     >>> print(meaning(QUANTITIES["c_2"]))
     drift at order $1/m^2$
     """
-    return typed(quantity.meaning)
+    return in_latex(quantity.meaning)
 
 
 def unit(quantity: Quantity) -> str:

@@ -8,7 +8,7 @@ Overview
     digits is a result, and not part of a formula.
 Key results
     read       the fragments of a text
-    typed      a text with its formulas in LaTeX
+    in_latex   a text with its formulas in LaTeX
     Fragment   words, a formula, a number, or a name that is none of the model's
 """
 
@@ -104,10 +104,10 @@ def read(text: str) -> tuple[Fragment, ...]:
     return tuple(part for part in _parts(text, groups) if part.text)
 
 
-def typed(text: str) -> str:
+def in_latex(text: str) -> str:
     r"""Return the text with its formulas in LaTeX.
 
-    >>> print(typed("terms of order 2 in 1/m, with f_c > 0"))
+    >>> print(in_latex("terms of order 2 in 1/m, with f_c > 0"))
     terms of order 2 in $1/m$, with $f_c > 0$
     """
     return "".join(f"${part.text}$" if part.kind == "formula" else part.text for part in read(text))

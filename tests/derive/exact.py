@@ -20,7 +20,7 @@ import mpmath
 import sympy as sp
 
 from derive.codegen.sources import source
-from derive.laws import released
+from derive.laws import unclamped
 from derive.program import Program, program
 from derive.program.function import Function
 from derive.variant import VARIANTS, Variant
@@ -64,7 +64,7 @@ def composed(function: Function) -> tuple[sp.Expr, ...]:
     """Return the results of a function, every assignment inserted, exponents not held."""
     results = function.results
     for name, value in reversed(function.assignments):
-        results = tuple(result.xreplace({name: released(value)}) for result in results)
+        results = tuple(result.xreplace({name: unclamped(value)}) for result in results)
     return results
 
 
@@ -90,7 +90,7 @@ def judge(function: Function, values: Mapping[str, float]) -> list[Judged]:
         known = {name: mpmath.mpf(value) for name, value in values.items()}
         lines = []
         for name, expr in function.assignments:
-            line = _evaluate(released(expr), known)
+            line = _evaluate(unclamped(expr), known)
             known[name.name] = line.value
             lines.append((name.name, line.slopes))
         found = []

@@ -30,7 +30,7 @@ def deviation(tmp_path_factory):
     folder = tmp_path_factory.mktemp("coq")
     made = export.Export((catalogue.equation("7c"), catalogue.equation("deviation")))
     made.write(folder)
-    assert export.compiled(folder, jobs=1) == ""
+    assert export.compile_faults(folder, jobs=1) == ""
     return folder, made
 
 

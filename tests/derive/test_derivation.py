@@ -12,7 +12,7 @@ from derive import catalogue
 from derive.check import model_checks, step_checks
 from derive.equations import TEXTS, Equation, Status, numbered
 from derive.hypotheses import Hypothesis
-from derive.kernel import Judgement, RuleError, chain, infer, replayed
+from derive.kernel import Judgement, RuleError, chain, infer, replay_fault
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH
 from derive.note import condensed, governing
 from derive.note.condensed import CondensedProblem
@@ -141,7 +141,7 @@ def test_a_physical_sign_is_told_from_the_printed_one():
 def test_the_condensed_problem_follows_for_every_law_and_pin(law, pin, opening):
     problem = CondensedProblem(law, opening, pin)
     for step in chain(problem.scalar, problem.rigid):
-        assert replayed(step) is None, step.relation
+        assert replay_fault(step) is None, step.relation
 
 
 def test_a_law_is_written_once():

@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from derive.kernel import replayed
+from derive.kernel import replay_fault
 from derive.note.condensed import bearing_only
 from derive.results.dimensionless import (
     DEFINITIONS,
@@ -32,7 +32,7 @@ k, U_a, u_c, T, sigma_c0 = symbols("k U_a u_c T sigma_c0")
 )
 def test_the_number_of_groups(scaled, groups, number):
     """No datum is left but the groups."""
-    assert replayed(scaled) is None
+    assert replay_fault(scaled) is None
     names = {s.name for s in scaled.relation.free_symbols} - {"tau"}
     assert names == {group.name for group in groups}
     assert len(groups) == number

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
-from derive.dimensions import DimensionError, dimension, homogeneous, parse_unit
+from derive.dimensions import DimensionError, dimension, dimension_fault, parse_unit
 from derive.symbols import QUANTITIES, rate, symbol, symbols
 
 u_c, h, sigma, p, k, t = (*symbols("u_c h sigma p k"), symbol("t"))
@@ -44,11 +44,11 @@ def test_a_rate_is_a_length_per_time() -> None:
     ids=str,
 )
 def test_what_does_not_fit_is_told(wrong: sp.Basic) -> None:
-    assert homogeneous(wrong) is not None
+    assert dimension_fault(wrong) is not None
 
 
 def test_zero_fits_any_dimension() -> None:
-    assert homogeneous(sp.Eq(h, 0, evaluate=False)) is None
+    assert dimension_fault(sp.Eq(h, 0, evaluate=False)) is None
 
 
 def test_a_function_of_a_length_is_an_error() -> None:
@@ -59,7 +59,7 @@ def test_a_function_of_a_length_is_an_error() -> None:
 def test_every_equation_is_homogeneous_as_derived_and_as_printed() -> None:
     for equation in catalogue.all_equations():
         for relation in (*equation.claims, *equation.printed, *equation.shown_in_full):
-            assert homogeneous(relation) is None, equation.id
+            assert dimension_fault(relation) is None, equation.id
 
 
 def test_turns_per_minute_are_a_frequency() -> None:

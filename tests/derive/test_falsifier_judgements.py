@@ -49,7 +49,7 @@ def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_
 
 def test_a_condition_of_the_threshold_is_needed():
     (statement,) = catalogue.equation("threshold").statements
-    (grows,) = (h for h in statement.conditions if h.typed == "f_c > 0")
+    (grows,) = (h for h in statement.conditions if h.brief == "f_c > 0")
     assert "f_c = 0" in str(counterexample_without(statement, grows))
 
 

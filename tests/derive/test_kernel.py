@@ -10,7 +10,7 @@ from derive.check import step_checks
 from derive.claims import Equality, Inequality
 from derive.equations import Equation
 from derive.hypotheses import ROUGHENING, Hypothesis
-from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replayed
+from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replay_fault
 from derive.rules.algebra import Discharge, Identity, substitute
 from derive.rules.assumption import Assume, assume
 from derive.rules.inequalities import Arithmetic, Monotone
@@ -57,18 +57,18 @@ def test_a_rule_of_ones_own_is_no_rule() -> None:
 )
 def test_what_was_changed_behind_the_back_is_found(field: str, value: object) -> None:
     made = assume(ROUGHENING)
-    assert replayed(made) is None
+    assert replay_fault(made) is None
     object.__setattr__(made, field, value)
-    assert replayed(made)
+    assert replay_fault(made)
 
 
 def test_what_was_changed_inside_a_claim_is_found() -> None:
     """The same application is worked out once, but not believed when its claim has changed."""
     relation = sp.And(sp.Ge(h_0, -h_0, evaluate=False), sp.Le(h_0, 2 * h_0, evaluate=False))
     made = Arithmetic(relation)()
-    assert replayed(made) is None
+    assert replay_fault(made) is None
     object.__setattr__(made.claim.first, "written", sp.Ge(h_0, h_0 + 1, evaluate=False))
-    assert replayed(made)
+    assert replay_fault(made)
     assert Arithmetic(relation)().relation == relation
 
 
@@ -125,7 +125,7 @@ def test_what_is_forged_is_refused(forged: Callable[[], object], said: str) -> N
 
 
 def test_a_look_alike_is_found() -> None:
-    assert replayed(Forged()) == "it is no judgement"  # type: ignore[arg-type]
+    assert replay_fault(Forged()) == "it is no judgement"  # type: ignore[arg-type]
 
 
 class Hiding(tuple):  # type: ignore[type-arg]
@@ -144,14 +144,14 @@ class Hiding(tuple):  # type: ignore[type-arg]
 def test_parts_that_hide_are_found(field: str) -> None:
     made = substitute(eq(h, h_0), eq(h_0, q))
     object.__setattr__(made, field, Hiding())
-    assert replayed(made)
+    assert replay_fault(made)
 
 
 def test_a_side_that_says_it_is_another_is_found() -> None:
     made = eq(h, f_c)
     assert isinstance(made.claim, Equality)
     object.__setattr__(made.claim, "rhs", Positive("theta", real=True))
-    assert "of no kind" in str(replayed(made))
+    assert "of no kind" in str(replay_fault(made))
 
 
 def test_an_expression_that_was_changed_in_place_is_found() -> None:
@@ -159,14 +159,14 @@ def test_an_expression_that_was_changed_in_place_is_found() -> None:
     relation = sp.Gt(q + L, 0, evaluate=False)
     made = Arithmetic(relation)()
     relation._args = (f_c + 7, sp.S.Zero)
-    assert replayed(made) == "a stored conclusion was changed"
+    assert replay_fault(made) == "a stored conclusion was changed"
 
 
 def test_a_judgement_that_rests_on_itself_is_found() -> None:
     made = Arithmetic(sp.Gt(f_c, 0))(ROUGHENS)
     object.__setattr__(made, "hypotheses", ())
     object.__setattr__(made, "parents", (made,))
-    assert replayed(made) == "f_c > 0 rests on itself"
+    assert replay_fault(made) == "f_c > 0 rests on itself"
 
 
 def test_a_claim_that_is_changed_after_its_check_is_found() -> None:

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 
 from derive.claims import Continuous, FirstZero, SlowEquation, landau_o
 from derive.hypotheses import Kind
-from derive.kernel import RuleError, replayed
+from derive.kernel import RuleError, replay_fault
 from derive.laws import TANH, ContactLaw, r
 from derive.note.model import contact
 from derive.reals import LAW
@@ -164,7 +164,7 @@ def test_what_is_not_of_the_language_is_refused(expr: sp.Expr, said: str) -> Non
 
 @pytest.mark.parametrize("expr", SPEAKABLE, ids=str)
 def test_what_is_of_the_language_can_be_said(expr: sp.Expr) -> None:
-    assert replayed(assume(supposed(equal(expr, h_0)))) is None
+    assert replay_fault(assume(supposed(equal(expr, h_0)))) is None
 
 
 MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
@@ -251,4 +251,4 @@ def test_a_hypothesis_is_of_the_kind_that_it_is_called(
 
 @pytest.mark.parametrize(("kind", "relation"), CALLED, ids=str)
 def test_what_is_called_by_its_kind_can_be_assumed(kind: Kind, relation: sp.Basic) -> None:
-    assert replayed(assume(supposed(relation, kind))) is None
+    assert replay_fault(assume(supposed(relation, kind))) is None

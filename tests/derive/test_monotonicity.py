@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from derive.kernel import RuleError, replayed
+from derive.kernel import RuleError, replay_fault
 from derive.laws import LAWS, ContactLaw
 from derive.results.monotonicity import DECREASING, INCREASING, WHILE_APART, effect
 
@@ -12,7 +12,7 @@ from derive.results.monotonicity import DECREASING, INCREASING, WHILE_APART, eff
 @pytest.mark.parametrize("datum", [*INCREASING, *DECREASING], ids=str)
 def test_every_direction_is_proved(law: ContactLaw, datum: sp.Expr) -> None:
     found = effect(law, datum)
-    assert replayed(found) is None
+    assert replay_fault(found) is None
     assert isinstance(found.relation, sp.Ge if datum in INCREASING else sp.Le)
 
 

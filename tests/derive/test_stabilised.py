@@ -8,7 +8,7 @@ import sympy as sp
 
 from derive import catalogue
 from derive.equations import Status
-from derive.kernel import chain, replayed
+from derive.kernel import chain, replay_fault
 from derive.laws import EXPONENTIAL, GENERAL, TANH
 from derive.note import stabilised
 from derive.results import cutoff, cutoff_two_solids, regimes, two_solids, validity
@@ -34,7 +34,7 @@ def test_the_status_of_each_equation_of_section_4(status):
 def test_the_limit_is_proved_for_every_law(law):
     steady = SteadyState(law)
     for step in chain(steady.pressure, steady.wear_per_cycle):
-        assert replayed(step) is None, step.relation
+        assert replay_fault(step) is None, step.relation
 
 
 def test_wear_per_cycle_and_pressure_of_section_4():

@@ -20,7 +20,7 @@ import pytest
 import sympy as sp
 
 from derive import rules
-from derive.kernel import Judgement, Rule, RuleError, infer, replayed
+from derive.kernel import Judgement, Rule, RuleError, infer, replay_fault
 from derive.language import names
 from derive.laws import ContactLaw, r
 from derive.reals import sign
@@ -111,14 +111,14 @@ def test_what_is_false_is_refused(name: str) -> None:
 def test_a_rule_gives_what_is_true_and_needs_each_premise(kind: type[Rule]) -> None:
     """The refusal says a name of the dropped premise, what the rule rests on, or the claim."""
     for known in made()[kind]:
-        assert replayed(known) is None
+        assert replay_fault(known) is None
         for premise, found in zip(known.parents, dropped(known), strict=True):
             if isinstance(found, Judgement):  # of another claim, or it supposes what is missing
                 supposes = set(found.hypotheses) - set(known.hypotheses)
                 assert supposes or found.claim != known.claim, premise.relation
                 continue
             said = [name for name, _ in names(premise.relation)] + [
-                *kind.asks,
+                *kind.premise_names,
                 str(known.relation),
             ]
             assert any(word in str(found) for word in said), (premise.relation, found)
@@ -188,4 +188,4 @@ def test_a_law_of_square_roots_has_a_steady_state(shift: int) -> None:
     phi = (1 - distance / sp.sqrt(1 + distance**2)) / 2
     limit = steady_state(ContactLaw("algebraic", phi, sp.Integer(shift), "a test"))
     assert is_zero(limit.pressure.claim.value / symbol("p_max") - phi.subs(r, 1 / symbol("f_c")))
-    assert replayed(limit.growth) is None
+    assert replay_fault(limit.growth) is None

@@ -10,7 +10,7 @@ from unittest.mock import patch
 from derive.catalogue import all_equations
 from derive.check import Check
 from derive.equations import Equation
-from derive.kernel import identity
+from derive.kernel import step_key
 from derive.verification import Verification
 from wear.report.claims import Entry, decided
 from wear.report.document import Document
@@ -25,7 +25,7 @@ CLAIMS = ("C1", "C4", "C7", "C14", "C15", "C16", "C17", "C24", *(f"C{n}" for n i
 def trusted(equations: Sequence[Equation]) -> Verification:
     """The outcome of a verification that did not take place."""
     usual = (Check("proof", True, "the move, made again, gives the claim"),)
-    steps = {identity(step): usual for equation in equations for step in equation.steps}
+    steps = {step_key(step): usual for equation in equations for step in equation.steps}
     return Verification(steps, (), len(equations))
 
 
