@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
+from scipy.interpolate import PchipInterpolator
 
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
 from wear.fitting.model import Parameter
-from wear.fitting.profiles import moved
+from wear.fitting.profiles import Profile, moved
 from wear.numerics.gauss import FloatArray
 from wear.quantities import label_of
 
@@ -78,7 +79,9 @@ def profiles(fit: Fit) -> Figure:
         cells = figure.subplots(rows, columns, squeeze=False, sharey=True).ravel()
         for cell, index in zip(cells, drawn, strict=False):
             parameter, profile = fit.parameters[index], fit.profiles[index]
-            cell.plot(profile.values, profile.roots, "o-", color=stroke(0)["color"], ms=3)
+            color = stroke(0)["color"]
+            cell.plot(profile.values, profile.roots, "o", color=color, ms=3)
+            cell.plot(*_curve(profile, parameter.positive), color=color)
             cell.axhline(fit.quantile, color=GREY, lw=0.6)
             cell.set(ylim=(0.0, 1.5 * fit.quantile), xlabel=_label(parameter))
             if parameter.positive and profile.values[-1] > _DECADE * profile.values[0]:
@@ -88,8 +91,21 @@ def profiles(fit: Fit) -> Figure:
                 cell.ticklabel_format(axis="x", scilimits=(-3, 4))
         for cell in cells[len(drawn) :]:
             cell.remove()
+        level = {"xycoords": ("axes fraction", "data"), "ha": "center", "va": "bottom", "size": 7}
+        cells[0].annotate("95 %", (0.5, fit.quantile), **level)
         figure.supylabel("Root of the deviance", size=8.5)
     return figure
+
+
+def _curve(profile: Profile, positive: bool) -> tuple[FloatArray, FloatArray]:
+    """Return a profile between its points: the values as a monotone function of the signed root."""
+    values, roots = profile.values, profile.roots
+    signed = np.where(np.arange(len(roots)) < np.argmin(roots), -roots, roots)
+    if len(values) < 2 or not np.all(np.diff(signed) > 0.0):
+        return values, roots
+    along = np.linspace(signed[0], signed[-1], _POINTS)
+    curve = PchipInterpolator(signed, np.log(values) if positive else values)(along)
+    return np.exp(curve) if positive else curve, np.abs(along)
 
 
 def corner(fit: Fit, samples: FloatArray) -> Figure:
