@@ -375,7 +375,7 @@ def test_where_increments_are_a_series_their_derivatives_are_one_too(
 
     monkeypatch.setattr(tangent, "map_derivatives", counted)
     by_series = sensitivity(scene, cycles)
-    monkeypatch.setattr(tangent, "_sampled", lambda _: np.empty(0))
+    monkeypatch.setattr(tangent, "sample_wears", lambda _: np.empty(0))
     each = sensitivity(scene, cycles)
     assert taken[0] < 0.9 * taken[1]
     assert np.all(np.abs(by_series.derivative - each.derivative) <= by_series.error + each.error)
