@@ -57,7 +57,7 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
     on = _mesh(scene)
     phases = np.concatenate([on.edges, on.phases.ravel()])
     per_cycle = np.full((3, len(starts)), np.nan)
-    rate = _wear_of_unit(model, scene)
+    rate = _wear_rate_per_pressure(model, scene)
     for part in fields_inside(model, scene.load, starts, phases, rtol):
         rows = np.searchsorted(starts, part.cycles)
         periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
@@ -75,8 +75,8 @@ def _mesh(scene: Scene) -> Mesh:
     return mesh(edges[keep], NODES if len(marks) <= MOST_KINKS else FEW_NODES)
 
 
-def _wear_of_unit(model: Model, scene: Scene) -> float:
-    """Return the wear rate per pressure, Eq. (5), in mm/s per MPa, from that at zero closure."""
+def _wear_rate_per_pressure(model: Model, scene: Scene) -> float:
+    """Return the wear rate per pressure, Eq. (5), in mm/s per MPa, from those at zero closure."""
     closed = np.array(scene.closure)
     rate, pressure = model.rate(np.array(0.0), closed), model.fields(np.array(0.0), closed).p
     return float(rate) / float(pressure)
@@ -102,10 +102,10 @@ def _sampled(values: FloatArray, over: Mesh) -> _OnMesh:
 
 
 def _pressures(
-    part: Inside, over: Mesh, wear_of_unit: FloatArray, given_load: bool
+    part: Inside, over: Mesh, wear_per_pressure: FloatArray, given_load: bool
 ) -> CyclePressures:
     """Return peak, mean and contact fraction of cycles sampled at the edges and nodes;
-    `wear_of_unit` is the wear of each (n,) under a mean pressure of 1 MPa, mm. A given pressure is
+    `wear_per_pressure` is the wear of each (n,) over its mean pressure, mm/MPa. A given pressure is
     smooth between the edges even where it vanishes."""
     fields, p = part.fields, _sampled(part.fields.p, over)
     touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
@@ -124,7 +124,7 @@ def _pressures(
     inside = np.max(np.where(smooth, _largest(p.fine(over)), 0.0), axis=1)
     peak = np.where(fraction > 0.0, np.maximum(largest, inside), 0.0)
     rule_error = np.where(whole, tail, np.max(p.nodes, axis=-1)) @ over.lengths
-    return CyclePressures(peak, _mean(part, p, over, rule_error, wear_of_unit), fraction)
+    return CyclePressures(peak, _mean(part, p, over, rule_error, wear_per_pressure), fraction)
 
 
 def _largest(values: FloatArray) -> FloatArray:
@@ -133,22 +133,23 @@ def _largest(values: FloatArray) -> FloatArray:
     before, middle, after = (
         np.take_along_axis(values, at + step, axis=-1)[..., 0] for step in (-1, 0, 1)
     )
-    bend = before - 2.0 * middle + after
-    rise = np.divide((after - before) ** 2, -8.0 * bend, out=np.zeros_like(bend), where=bend < 0.0)
-    between = np.abs(after - before) <= -2.0 * bend  # the vertex
+    curvature = before - 2.0 * middle + after
+    rise, concave = np.zeros_like(curvature), curvature < 0.0
+    np.divide((after - before) ** 2, -8.0 * curvature, out=rise, where=concave)
+    between = np.abs(after - before) <= -2.0 * curvature  # the vertex
     return np.where(between, middle + rise, np.maximum(middle, np.maximum(before, after)))
 
 
 def _mean(
-    part: Inside, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_of_unit: FloatArray
+    part: Inside, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_per_pressure: FloatArray
 ) -> FloatArray:
     """Return the mean pressure (n,) in MPa from the wear of the cycle, or by the rule where its
     `rule_error` (n,) is smaller."""
     last = len(over.edges) - 1
     increment = part.u[:, last] - part.u[:, 0]
-    by_wear, by_rule = increment / wear_of_unit, p.nodes @ over.rule.weights @ over.lengths
+    by_wear, by_rule = increment / wear_per_pressure, p.nodes @ over.rule.weights @ over.lengths
     with np.errstate(invalid="ignore"):  # an unknown error of no wear
-        wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_of_unit
+        wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_per_pressure
     return np.where(wear_error < rule_error, by_wear, by_rule)
 
 

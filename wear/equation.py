@@ -21,9 +21,9 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 from wear.scene import Scene
 
-FAR = 1e12  # roughnesses of wear: more than in any count
-APART = 1e-4  # of the roughness: half the difference of displacements for the slope of the rate
-NEARLY = 0.99  # of the wear at which the roughness vanishes
+DEEPEST = 1e12  # roughnesses of wear: more than in any count
+HALF_DIFFERENCE = 1e-4  # of the roughness: half the step of the central difference in displacement
+USABLE_SHARE = 0.99  # of the wear at which the roughness vanishes
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 
 
@@ -90,15 +90,15 @@ class WearEquation:
 
     @cached_property
     def limit(self) -> FloatArray:
-        """Return `NEARLY` the wear (scenes,) in mm at which the equivalent roughness vanishes,
-        infinite if it does not.
+        """Return the largest wear (scenes,) in mm that may be solved for: `USABLE_SHARE` of that at
+        which the equivalent roughness vanishes, infinite if it does not.
 
         The roughness of one solid is linear in the wear; that of two never vanishes.
         """
-        far = FAR * self.scale
+        far = DEEPEST * self.scale
         start, end = 4 * self.scale, self._roughness(far[:, None])
         decrease = np.where(end <= 0, start - end, 1.0)
-        return np.where(end <= 0, NEARLY * far * start / decrease, np.inf)
+        return np.where(end <= 0, USABLE_SHARE * far * start / decrease, np.inf)
 
     @cached_property
     def breakpoints(self) -> list[FloatArray]:
@@ -157,7 +157,7 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     cancellation = (initial + np.abs(sigma - initial)) / sigma  # where roughness vanishes
     terms = np.abs(fields.h) * (1 + cancellation) + np.abs(displacement)
     terms += np.abs(getattr(fields, "U_c", 0.0))
-    apart = APART * sigma
+    apart = HALF_DIFFERENCE * sigma
     more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
     underflow = SMALLEST / np.maximum(less, SMALLEST)

@@ -57,8 +57,8 @@ class Curve(NamedTuple):
     family: int
 
 
-class Quantity(NamedTuple):
-    """The quantity of a pair of axes: its label, the `scale` from our unit to that of the figure,
+class Ordinate(NamedTuple):
+    """The quantity along an ordinate: its label, the `scale` from our unit to that of the figure,
     and the columns of a history of this kind."""
 
     label: str
@@ -66,23 +66,23 @@ class Quantity(NamedTuple):
     curves: tuple[Curve, ...] = ()
 
 
-WEAR = Quantity(
+WEAR = Ordinate(
     r"Wear  $u$  ($\mathrm{\mu m}$)", 1e3,
     (Curve("bearing_wear_mm", "bearing", 0), Curve("pin_wear_mm", "pin", 1)),
 )  # fmt: skip
-BEARING_WEAR = Quantity(r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)", WEAR.scale)
-ROUGHNESS = Quantity(
+BEARING_WEAR = Ordinate(r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)", WEAR.scale)
+ROUGHNESS = Ordinate(
     r"Roughness  $\sigma$  ($\mathrm{\mu m}$)", 1e3,
     (Curve("bearing_roughness_mm", "bearing", 0), Curve("pin_roughness_mm", "pin", 1)),
 )  # fmt: skip
-PRESSURE = Quantity(
+PRESSURE = Ordinate(
     r"Pressure  $p$  (MPa)", 1.0,
     (
         Curve("peak_pressure_MPa", "peak", 2), Curve("mean_pressure_MPa", "mean", 3),
         Curve("pressure_at_start_MPa", "start of cycle", 4),
     ),
 )  # fmt: skip
-CONTACT = Quantity("Fraction in contact", 1.0, (Curve("contact_fraction", "in contact", 5),))
+CONTACT = Ordinate("Fraction in contact", 1.0, (Curve("contact_fraction", "in contact", 5),))
 _PLAIN = ("bearing", "in contact")  # omitted from the names of lines of several runs
 
 
@@ -91,7 +91,7 @@ class Panel:
     """One pair of axes: lines of a quantity, measured `points`, thin lines `behind` them (their
     asymptotes), and the `limit`, a value not to be exceeded."""
 
-    quantity: Quantity
+    quantity: Ordinate
     lines: tuple[Line, ...]
     points: tuple[Line, ...] = ()
     behind: tuple[Line, ...] = ()
@@ -151,7 +151,7 @@ def panels_of(
     return tuple(panels)
 
 
-def _curves(history: History, quantity: Quantity) -> Iterator[tuple[Curve, FloatArray]]:
+def _curves(history: History, quantity: Ordinate) -> Iterator[tuple[Curve, FloatArray]]:
     """Yield the columns of the variant; the contact fraction only where contact is lost."""
     columns = history.columns()
     trivial = 1.0 if quantity is CONTACT else 0.0

@@ -1,8 +1,7 @@
-"""A scene's model: the generated variant that it needs, with its numbers bound.
+"""The model of a scene: one interface of all solvers to all generated variants.
 
-Features that a scene leaves out have no symbol, no state and no operation in the code that runs.
-The model gives solvers one interface to all variants: wear rate, its slope, the fields, and where
-contact ends at h = 3 sigma the margin of contact.
+It has the wear rate, its slope and gradient, the fields, and where contact ends at h = 3 sigma the
+margin of contact. `wear.binding` makes it from a scene.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Overview
     In the steady regime ``u_c(N T) = R N + A ln N + B + o(1)``.  R and A follow from the data; B
-    depends on the whole history.  All three are read off the solution of Abel's equation at
+    depends on the whole history.  All three follow from the solution of Abel's equation at
     infinity (`wear.orbit.infinity`); the difference of that A to the derived one is the basis of
     the error estimate of B.
 Key results
@@ -21,13 +21,13 @@ from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.numerics.rows import take
 from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells
+from wear.quantities import MOST_CYCLES
 from wear.scene import Scene
 
-FARTHEST = 1e12  # largest number of counted cycles
-FAR = 1e10  # roughnesses of wear up to which cycles are counted, within these
+DEEPEST = 1e10  # roughnesses of wear up to which cycles are counted
 RTOL = 1e-13
-RESOLVED = 1e-6  # relative error of B beyond which it is not known
-PER_DRIFT = 100.0  # times the error of A: the error of B, which is usually some ten times
+LARGEST_ERROR = 1e-6  # relative; B with a larger one is unknown
+ERROR_RATIO = 100.0  # bound of the error of B over that of A, which is usually about ten
 
 
 class Offset(NamedTuple):
@@ -44,9 +44,9 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
 
     Where contact may be lost, contact in the steady state has to last throughout the cycle.
     """
-    if rate * FARTHEST < scene.initial_roughness:
+    if rate * MOST_CYCLES < scene.initial_roughness:
         return None
-    cycles = min(FAR * scene.initial_roughness / rate, FARTHEST)
+    cycles = min(DEEPEST * scene.initial_roughness / rate, MOST_CYCLES)
     segment = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL).orbit.last(0)
     table = segment.iterates
     if isinstance(table, TabulatedIterates) and table.coordinate.shift > 0.0:
@@ -63,8 +63,8 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     uncertain = float(segment.count_uncertainty[0]) + float(table.count_error[0][-size - 1])
     with np.errstate(all="ignore"):  # a panel that ends before the steady state does
         found = steady_state(panel, before)
-    error = rate * uncertain + PER_DRIFT * abs(found.drift - drift)
-    known = np.isfinite(found.offset) and error <= RESOLVED * abs(found.offset)
+    error = rate * uncertain + ERROR_RATIO * abs(found.drift - drift)
+    known = np.isfinite(found.offset) and error <= LARGEST_ERROR * abs(found.offset)
     return Offset(found.offset, error, found) if known else None
 
 

@@ -6,11 +6,11 @@ import re
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from wear.checked import TABLES, Kind, SceneTable
 from wear.load.blocks import Block
-from wear.load.tables import KINDS, PERIODIC
+from wear.load.conversion import KINDS, PERIODIC
 from wear.quantities import unit_of
 from wear.scene import Scene
+from wear.validation import TABLES, EntryKind, SceneTable
 
 _SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")
 _WORDS = {"max": r"\max"}
@@ -80,7 +80,7 @@ def _typeset(meaning: str) -> str:
 
 def _value(name: str, field: Any) -> str:
     inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
-    found = next((each for each in (*field.metadata, *inner) if isinstance(each, Kind)), None)
+    found = next((each for each in (*field.metadata, *inner) if isinstance(each, EntryKind)), None)
     if choices := getattr(found, "names", ()):
         return ", ".join(f'`"{choice}"`' for choice in choices)
     kind, unit = _kind(field.annotation), unit_of(name)

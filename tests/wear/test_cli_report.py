@@ -1,4 +1,4 @@
-"""`wear report`: the report of a scene of one's own."""
+"""`wear report`: the report of a scene of one's scene_report."""
 
 import json
 import re
@@ -14,7 +14,7 @@ from derive.variant_equations import equations_of
 from wear import solve
 from wear.cli import main
 from wear.load import Block, Blocks, Sine
-from wear.report import own, publish
+from wear.report import publish, scene_report
 from wear.report.document import FigureFiles
 from wear.report.text import inline
 from wear.scene import load_scene
@@ -24,7 +24,9 @@ from wear.scene import load_scene
 def undrawn(monkeypatch):
     """Figures are named, not drawn."""
     none = FigureFiles("", b"")
-    monkeypatch.setattr(own, "drawn", lambda drawings: {f"fig:{name}": none for name in drawings})
+    monkeypatch.setattr(
+        scene_report, "drawn", lambda drawings: {f"fig:{name}": none for name in drawings}
+    )
 
 
 def test_the_files_and_what_they_say(tmp_path, capsys, monkeypatch):
@@ -46,7 +48,7 @@ def test_the_files_and_what_they_say(tmp_path, capsys, monkeypatch):
 @pytest.mark.usefixtures("undrawn")
 def test_the_numbers_are_those_of_the_solver_and_the_equations_those_of_the_variant():
     scene = load_scene("section4")
-    document = own.report(scene, "wear report section4")
+    document = scene_report.report(scene, "wear report section4")
     wear = solve(scene, [1, 10**6], rtol=1e-10).u_c * 1e3  # the wear after 1e7 cycles is absurd
     numbers = [t.meta["number"].value for t in inline(document.tokens) if t.type == "number"]
     values = np.array(numbers)
@@ -78,7 +80,7 @@ EDGES = {
 @pytest.mark.parametrize("name", EDGES)
 def test_hard_scenes_have_a_report_with_the_equations_of_their_regime(name):
     """The first two also where the requested accuracy, or the offset, cannot be had."""
-    document = own.report(load_scene(name), f"wear report {name}")
+    document = scene_report.report(load_scene(name), f"wear report {name}")
     assert next(reversed(document.equations)) == EDGES[name]
     assert "sec:life" in document.marks
 
@@ -88,7 +90,7 @@ def test_blocks_have_no_long_run():
     """Nor pressure inside a cycle; what a cycle is differs from block to block."""
     hard, soft = Block(Sine(5e-4, 0.06), 3), Block(Sine(1e-4, 0.02), 2)
     scene = replace(load_scene("section4"), load=Blocks((hard, soft), repeat=10))
-    document = own.report(scene, "wear report mine.toml")
+    document = scene_report.report(scene, "wear report mine.toml")
     assert set(document.figures) == {"fig:scene", "fig:history", "fig:sensitivities"}
     assert "sec:long" not in document.marks
     assert "sec:life" in document.marks
@@ -98,8 +100,8 @@ def test_blocks_have_no_long_run():
 def test_a_law_of_the_scenes_own_stands_in_its_report(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     scene = load_scene("section4", ['contact.law={phi = "1/(1 + exp(r - 1))"}'])
-    monkeypatch.setattr(own, "_solved", lambda _: solve(scene, [1, 10], rtol=1e-6))
-    shown = {e.id: e.latex for e in own.report(scene, "wear report mine.toml").shown}
+    monkeypatch.setattr(scene_report, "_solved", lambda _: solve(scene, [1, 10], rtol=1e-6))
+    shown = {e.id: e.latex for e in scene_report.report(scene, "wear report mine.toml").shown}
     assert r"\tanh" not in shown["scene-pressure"]
     assert "general-law" in shown
 

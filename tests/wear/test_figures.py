@@ -25,7 +25,7 @@ from wear.figure_data import (
     pressure_inside,
 )
 from wear.load import Block, Blocks, Constant
-from wear.report import drawing, figures_of_note
+from wear.report import figures_of_note, schematic
 from wear.scene import load_scene
 from wear.solver import solve
 
@@ -69,7 +69,7 @@ def _all() -> dict[str, Figure]:
         "map": figures_of_note.regimes(
             {name: load_scene(name) for name in ("section3", "section4")}
         ),
-        "system": drawing.system(),
+        "system": schematic.system(),
     }
 
 

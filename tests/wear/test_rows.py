@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from wear.checked import problems
 from wear.faults import SceneError
-from wear.load import Table, rows
-from wear.load.rows import TableFile, read_rows
+from wear.load import Table, csv_file
+from wear.load.csv_file import TableFile, read_rows
 from wear.scene import Scene, load_scene
+from wear.validation import problems
 
 HEAD = "t_s,U_a_mm\n"
 
@@ -34,7 +34,7 @@ def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
 
 
 def test_as_many_rows_as_may_be_are_read(tmp_path, monkeypatch):
-    monkeypatch.setattr(rows, "MOST_ROWS", 20_000)  # of a million
+    monkeypatch.setattr(csv_file, "MOST_ROWS", 20_000)  # of a million
     times = np.arange(20_000) / 1024
     level = 5e-4 * np.sin(times)
     lines = [f"{t!r},{U!r}" for t, U in zip(times.tolist(), level.tolist(), strict=True)]

@@ -6,9 +6,9 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from wear.checked import TABLES
 from wear.faults import SceneError
 from wear.scene import Scene, builtin_names, load_scene, parse_scene
+from wear.validation import TABLES
 
 NAMES = sorted(
     {"title", "description", "load", "kind", "cycles", "blocks"}

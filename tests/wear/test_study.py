@@ -455,7 +455,7 @@ def test_indices_of_scenes_without_an_answer_are_refused():
 
 
 def test_a_dry_run_says_what_a_study_takes_and_writes_nothing(call, tmp_path, monkeypatch):
-    monkeypatch.setattr("wear.commands.study.LONG_ENOUGH", 0.01)  # the first few rows are timed
+    monkeypatch.setattr("wear.commands.study.LEAST_SECONDS", 0.01)  # the first few rows are timed
     out = tmp_path / "a.zarr"
     words = ("section4", "--vary", f"{GROWTH}=0.1:0.3:21", "-o", str(out), "--dry-run")
     status, shown, _ = call("study", *words, "--json")

@@ -162,15 +162,15 @@ def benchmark(
     return (*(job.measured() for job in jobs), *not_run), starts
 
 
-def _repeat(jobs: Sequence[TimedRun], effort: Effort, progress: Callable[[str], None]) -> None:
-    """Run all jobs in rounds, so that a busy machine disturbs all methods alike."""
+def _repeat(runs: Sequence[TimedRun], effort: Effort, progress: Callable[[str], None]) -> None:
+    """Repeat the runs in rounds, so that a busy machine disturbs all methods alike."""
     begin = time.process_time()
-    for repeat in range(effort.rounds):
-        progress(f"round {repeat + 1} of {effort.rounds}")
-        for job in jobs:
+    for number in range(1, effort.rounds + 1):
+        progress(f"round {number} of {effort.rounds}")
+        for run in runs:
             if time.process_time() - begin > effort.rest:
                 return
-            job.once()
+            run.once()
 
 
 def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[StepResult]:

@@ -21,8 +21,8 @@ from wear.benchmark.methods import (
     UnsuitableError,
     cases,
     names,
+    solve_ivp_with_defaults,
     solver,
-    with_defaults,
 )
 from wear.benchmark.results import TextTable, grouped, magnitude, markdown_table
 from wear.quantities import in_short
@@ -54,7 +54,7 @@ def methods_of(case: Case) -> Iterator[tuple[str, float]]:
 def attempt(case: Case, method: str, tolerance: float, time_limit: float) -> Measurement:
     """Run one method on one case, once."""
     plain = method.removeprefix("solve_ivp ")
-    prepare = with_defaults if plain != method else partial(solver, time_limit=time_limit)
+    prepare = solve_ivp_with_defaults if plain != method else partial(solver, time_limit=time_limit)
     start = time.process_time()
     try:
         answer = prepare(case.scene, plain)(case.cycles, tolerance)

@@ -127,7 +127,7 @@ def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
             history, complaint = miss.best, str(miss)
         if len(history.u_c) == 0:
             return Answer(math.nan, complaint=complaint, stopped=stopped)
-        error = float(history.error[0])  # not a number where there is no estimate
+        error = float(history.error[0])  # NaN where there is no estimate
         estimate = None if math.isnan(error) else error
         evaluations = history.cost["rhs_evaluations"]
         return Answer(float(history.u_c[0]), estimate, evaluations, complaint, stopped)
@@ -135,9 +135,9 @@ def solver(scene: Scene, method: str, time_limit: float = LONGEST_RUN) -> Run:
     return run
 
 
-def with_defaults(scene: Scene, method: str) -> Run:
-    """Return the first attempt of a user as a run: `solve_ivp` on the raw equation, in mm and s,
-    with its default tolerances, whatever is requested.
+def solve_ivp_with_defaults(scene: Scene, method: str) -> Run:
+    """Return `solve_ivp` on the equation in mm and s as a run, with its default tolerances whatever
+    is requested: the first attempt of a user.
 
     The answer is wrong by tens of percent without a warning: the absolute tolerance, 1e-6 mm, is a
     tenth of the wear of the first cycles, and steps jump over contact pulses.
@@ -166,11 +166,11 @@ def _own(name: str, method: str, tolerances: tuple[float, ...]) -> Method:
     return Method(name, imports, lambda scene: solver(scene, method), tolerances, steps)
 
 
-def _plain(method: str) -> Method:
+def _solve_ivp(method: str) -> Method:
     return Method(
         f"solve_ivp {method}, defaults",
         ("scipy.integrate",),
-        lambda scene: with_defaults(scene, method),
+        lambda scene: solve_ivp_with_defaults(scene, method),
         (DEFAULT_TOLERANCE,),
     )
 
@@ -178,5 +178,5 @@ def _plain(method: str) -> Method:
 OWN = (
     _own("abel", "abel", (1e-4, 1e-6, 1e-9, 1e-12)),
     *(_own(f"wear {method}", method, (1e-4, 1e-6, 1e-9)) for method in SCIPY),
-    *map(_plain, WITH_DEFAULTS),
+    *map(_solve_ivp, WITH_DEFAULTS),
 )

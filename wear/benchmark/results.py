@@ -20,12 +20,12 @@ from wear.quantities import in_short
 
 Row = TypeVar("Row")
 COMMITTED = files("wear").joinpath("data", "speed.json")
-READER = "section4"
+SHOWN_SCENE = "section4"
 """The scene of the sentences and of the figures."""
 FEWEST_DRAWN = 4  # methods in a figure
-LEAST = float(np.finfo(float).eps) / 2  # relative error that a figure shows
+LEAST_ERROR = float(np.finfo(float).eps) / 2  # relative, that a figure shows
 YEAR = 3.15576e7  # s
-UNITS = (
+UNITS = (  # upper limit in s, unit in s, name
     (1e-3, 1e-6, "µs"),
     (1.0, 1e-3, "ms"),
     (120.0, 1.0, "s"),
@@ -110,11 +110,11 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
         ranking = best(group, digits)
         if not ranking:
             texts.append(
-                f"{in_short(cycles, 5)} cycles, {digits} digits: nothing that was tried gets there."
+                f"{in_short(cycles, 5)} cycles, {digits} digits: no method tried reaches them."
             )
             continue
         first, *others = ranking
-        rest = "nothing else got there in the time given to it"
+        rest = "no other method reached them within its time limit"
         if others:
             ratio = others[0].seconds / first.seconds
             rest = f"{others[0].method} takes {_rounded(ratio)} times as long"
@@ -151,7 +151,7 @@ def curves(runs: Sequence[Measurement]) -> list[TimingCurve]:
     return [
         TimingCurve(
             name,
-            np.array([max(abs(run.error), LEAST) for run in own]),
+            np.array([max(abs(run.error), LEAST_ERROR) for run in own]),
             np.array([run.seconds for run in own]),
             np.array([run.status is not Status.MET for run in own]),
         )

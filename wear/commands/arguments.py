@@ -66,7 +66,7 @@ def add_readings(parser: Parser, help: str) -> None:
 
 
 def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
-    """Return a reader of one of some words, in any case of letters."""
+    """Return a reader of one of these words, in upper or lower case."""
 
     def chosen(text: str) -> str:
         exact = {choice.lower(): choice for choice in choices()}
@@ -163,7 +163,7 @@ def number(low: float, high: float) -> Callable[[str], float]:
 
 
 def whole(low: int, high: int) -> Callable[[str], int]:
-    """Return what reads a whole number within bounds.
+    """Return a reader of a whole number within bounds.
 
     >>> whole(1, 1024)("1e3"), whole(0, 2**63)("9007199254740993")
     (1000, 9007199254740993)
@@ -187,17 +187,18 @@ def file(*suffixes: str) -> Callable[[str], Path]:
         suffix = Path(text).suffix
         if suffix not in suffixes and suffix.lower() not in {*suffixes} & {*PICTURES}:
             raise ArgumentTypeError(f"{text}: end it in {', '.join(suffixes)}")
-        return _free(text, files.obstacle(text))
+        return _writable(text, files.obstacle(text))
 
     return place
 
 
 def folder(text: str) -> Path:
     """Return an output folder, which is made if it is missing."""
-    return _free(text, files.obstacle_to_folder(text))
+    return _writable(text, files.obstacle_to_folder(text))
 
 
-def _free(text: str, problem: str | None) -> Path:
+def _writable(text: str, problem: str | None) -> Path:
+    """Return the path of an output, or raise the problem with it."""
     if problem is not None:
         raise ArgumentTypeError(problem)
     return Path(text)
@@ -214,8 +215,8 @@ def _quoted(text: str) -> str:
     return f'"{shown(text)}"'
 
 
-def refused(notices: Sequence[str], options: Options) -> Faults:
-    """Return the notices of implausible magnitudes, which `--strict` makes faults."""
+def strict_faults(notices: Sequence[str], options: Options) -> Faults:
+    """Return the notices of implausible magnitudes as faults, none without `--strict`."""
     from wear.scene.notices import WORD
 
     return Faults(text for text in notices if options.strict and text.startswith(WORD))
@@ -246,7 +247,7 @@ def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
     except SceneError as fault:
         faults.append(str(fault))
         return None
-    faults += refused(scene.notices, options)
+    faults += strict_faults(scene.notices, options)
     return scene
 
 

@@ -45,7 +45,7 @@ def execute(options: Options) -> Answer:
     arguments.read(options).stop_if_any()
     with terminal.busy("seeking the asymptote"):
         result = asymptote(options.scene)
-    arguments.refused(result.notices, options).stop_if_any()
+    arguments.strict_faults(result.notices, options).stop_if_any()
     notices = () if options.json else result.notices  # the document has them
     return Answer(asdict(result), lambda: "\n".join(_lines(result)), notices)
 

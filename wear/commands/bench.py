@@ -56,16 +56,16 @@ def _speed(options: Options) -> Answer:
     from wear.benchmark.machine import footer
 
     result = _measure(options)
-    document = output.document(result, output.READER)
+    document = output.document(result, output.SHOWN_SCENE)
     if options.output is not None:
         contents: dict[str, str | bytes] = {
             "speed.csv": output.csv_text(result.runs),
             "speed-start.csv": output.csv_text(result.starts),
-            "speed.md": output.markdown(result, output.READER),
+            "speed.md": output.markdown(result, output.SHOWN_SCENE),
             "speed.json": terminal.json_text(document),
         }
         files.write_all(options.output, contents | _figures(result))
-    text = (*output.sentences(result.runs, output.READER), "", *output.absences(result))
+    text = (*output.sentences(result.runs, output.SHOWN_SCENE), "", *output.absences(result))
     lines = (*_tables(output.tables(result)), *text, footer(result.facts))
     return Answer(document, lambda: "\n".join(lines))
 
@@ -128,15 +128,15 @@ def load_peers(name: str) -> ModuleType:
 def _figures(result: Result) -> dict[str, bytes]:
     """Return the figures by file name: time against the number of cycles, and against true error
     for numbers of cycles at which methods can be compared."""
-    from wear.benchmark.results import DIGITS, READER, comparable, curves, curves_by_cycles
+    from wear.benchmark.results import DIGITS, SHOWN_SCENE, comparable, curves, curves_by_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error
 
     drawn = {
         f"speed-{cycles}": speed_against_error(curves(runs))
-        for cycles, runs in comparable(result.runs, READER).items()
+        for cycles, runs in comparable(result.runs, SHOWN_SCENE).items()
     }
-    if by_cycles := curves_by_cycles(result.runs, READER, DIGITS[0]):
+    if by_cycles := curves_by_cycles(result.runs, SHOWN_SCENE, DIGITS[0]):
         drawn["speed-cycles"] = speed_against_cycles(by_cycles)
     return {f"{name}.svg": encoded(figure, ".svg") for name, figure in drawn.items()}
 

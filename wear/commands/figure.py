@@ -113,7 +113,7 @@ def _against_cycles(options: Options, last: int) -> Answer:
             unit = " cycles" if math.isfinite(life.cycles[0]) else ""
             lines.append(f"{name}: {limit:g} mm: {text}{unit}")
             notices += life.notices
-    arguments.refused(notices, options).stop_if_any()
+    arguments.strict_faults(notices, options).stop_if_any()
     shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
     drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
     _write(drawn, options.output)

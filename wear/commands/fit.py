@@ -77,7 +77,7 @@ def execute(options: Options) -> Answer:
         samples = posterior(result, options.posterior) if options.posterior else None
         tell("forecasting")
         document = {"scene": "", "data": options.data} | result.as_json(cycles, wear)
-    arguments.refused(document["notices"], options).stop_if_any()
+    arguments.strict_faults(document["notices"], options).stop_if_any()
     if samples is not None:
         for row, ends in zip(document["parameters"], np.quantile(samples, QUANTILES, axis=0).T,
                              strict=True):  # fmt: skip

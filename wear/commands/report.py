@@ -32,8 +32,8 @@ def execute(options: Options) -> Answer:
     if obstacle := files.obstacle_to_folder(folder):
         faults.append(obstacle)
     faults.stop_if_any()
-    from wear.report.own import report
     from wear.report.publish import published
+    from wear.report.scene_report import report
 
     changes = [part for entry in options.overrides for part in ("--set", entry)]
     data = [] if options.data is None else ["--data", options.data]

@@ -87,7 +87,7 @@ def execute(options: Options) -> Answer:
         more = [text for text in life.notices if text not in history.notices]
         until = _cycles_until(life) | {"notices": [*history.notices, *more]}
         notices += more
-    arguments.refused(notices, options).stop_if_any()
+    arguments.strict_faults(notices, options).stop_if_any()
     if output is not None:
         run_output.write(history, output)
 

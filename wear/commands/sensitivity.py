@@ -52,7 +52,7 @@ def execute(options: Options) -> Answer:
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
         result = sensitivity(scene, cycles, rtol, tell)
-    arguments.refused(result.notices, options).stop_if_any()
+    arguments.strict_faults(result.notices, options).stop_if_any()
     if output is not None:
         files.write_atomically(output, _written(result, output.suffix))
     known = [bool(np.isfinite(column).all()) for column in result.error.T]

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from wear.studies.rows import Study
 
 LONGEST_WAIT = 10  # seconds for a scheduler to answer
-TRIED, LONG_ENOUGH = 64, 0.5  # rows that a dry run solves first; s, below which it solves more
+FIRST_ROWS, LEAST_SECONDS = 64, 0.5  # of a dry run, which solves more rows until it took as long
 
 
 def add_arguments(parser: Parser) -> None:
@@ -92,7 +92,7 @@ def execute(options: Options) -> Answer:
         store = run(request, Path(options.output), executor, tell)
     results = store.dataset()
     notices = results.attrs["notices"]
-    arguments.refused(notices, options).stop_if_any()
+    arguments.strict_faults(notices, options).stop_if_any()
     if options.figure is not None:
         from wear.figure_style import encoded
         from wear.studies.figures import picture
@@ -114,9 +114,9 @@ def _dry_run(request: Study, workers: int) -> Answer:
     from wear.studies.rows import solve_rows
     from wear.studies.store import disk_bytes
 
-    rows, tried, spent = request.design.rows, TRIED // 4, 0.0
+    rows, tried, spent = request.design.rows, FIRST_ROWS // 4, 0.0
     solve_rows(request, request.design.random_rows(2))  # imports
-    while spent < LONG_ENOUGH and tried < ROWS:
+    while spent < LEAST_SECONDS and tried < ROWS:
         tried *= 4
         start = time.process_time()
         solve_rows(request, request.design.random_rows(tried))

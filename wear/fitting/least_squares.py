@@ -73,15 +73,15 @@ def descend(
 def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
-    These are the scene itself, the scene with the roughness growth of `_growth` if that is free,
-    and both with wear coefficients by `_paced`. Raises `UsageError` if no start has any wear, or a
-    parameter has no influence.
+    These are the scene itself, the scene with the roughness growth of `_starting_growth` if that is
+    free, and both with wear coefficients by `_with_matched_pace`. Raises `UsageError` if no start
+    has any wear, or a parameter has no influence.
     """
     centre = model.start()
     growths = np.array([p.key.endswith(".roughness_growth") for p in model.parameters])
     starts = centre[None]
     if growths.any():
-        starts = np.array([centre, np.where(growths, _growth(model), centre)])
+        starts = np.array([centre, np.where(growths, _starting_growth(model), centre)])
     residuals, slope = model(starts)
     finite = np.all(np.abs(residuals) < MISSING_RESIDUAL, axis=1)
     if not finite.any():
@@ -89,13 +89,13 @@ def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     idle = np.all(slope == 0.0, axis=(0, 1))
     parameters = zip(model.parameters, idle.tolist(), strict=True)
     Faults(f"free: {p}: has no influence" for p, none in parameters if none).stop_if_any()
-    starts = np.concatenate([starts, _paced(model, starts[finite])])
+    starts = np.concatenate([starts, _with_matched_pace(model, starts[finite])])
     best = starts[np.argsort(model.cost(starts), kind="stable")[:DESCENTS]]
     points, costs = descend(model, best, (centre, SEARCH_RANGE * model.scale(centre)), say)
     return np.asarray(points[np.argmin(costs)])
 
 
-def _growth(model: FitModel) -> float:
+def _starting_growth(model: FitModel) -> float:
     """Return the roughness growth at which the ratio of the steady wear per cycle, (21), to the
     initial one is that in the readings.
 
@@ -122,7 +122,7 @@ def _growth(model: FitModel) -> float:
     return float(brentq(excess, low, high, rtol=GROWTH_RTOL))
 
 
-def _paced(model: FitModel, starts: FloatArray) -> FloatArray:
+def _with_matched_pace(model: FitModel, starts: FloatArray) -> FloatArray:
     """Return the starts with free wear coefficients multiplied by the delay of their wear.
 
     Averaged over a cycle, wear depends on the product of wear coefficient and cycles alone (the
@@ -134,15 +134,15 @@ def _paced(model: FitModel, starts: FloatArray) -> FloatArray:
     grid = np.rint(np.geomspace(1.0, farthest, CURVE_POINTS))
     level, _ = model.log_wear(starts, [grid] * len(model.specimens))
     level = level.reshape(len(starts), len(model.specimens), -1)
-    paced = starts.copy()
-    for start, curves in zip(paced, np.fmax.accumulate(level, axis=2), strict=True):
+    matched = starts.copy()
+    for start, curves in zip(matched, np.fmax.accumulate(level, axis=2), strict=True):
         pairs = list(zip(model.specimens, curves, strict=True))
         for i, p in enumerate(model.parameters):
             if p.key.endswith(".wear_coefficient"):
                 start[i] += np.mean(
                     [_mean_log_delay(s, grid, u) for s, u in pairs if p.specimen in ("", s.name)]
                 )
-    return paced[np.isfinite(paced).all(axis=1)]
+    return matched[np.isfinite(matched).all(axis=1)]
 
 
 def _mean_log_delay(specimen: Specimen, grid: FloatArray, log_wear: FloatArray) -> float:

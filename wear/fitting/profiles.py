@@ -18,13 +18,13 @@ from wear.fitting.least_squares import descend
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import TINY
 
-LEVELS = (0.5, 1.0)  # of the quantile, at which a profile is drawn
-NEAR = 0.01  # of the quantile: accuracy of an end
-OPEN_BEYOND = 0.1  # of the quantile: an end with a larger error is open
-FIRST, LONGER, SHORTER = 1.0, 2.0, 0.4  # e-folds, or sizes, of the longest step; its factors
-MOST_STEPS = 25  # to each share
+LEVELS = (0.5, 1.0)  # of the deviance's root, in quantiles, at which a profile is drawn
+END_TOLERANCE = 0.01  # of the quantile: accuracy of an end
+OPEN_END_ERROR = 0.1  # of the quantile: an end with a larger error is open
+FIRST_STEP, LENGTHENED, SHORTENED = 1.0, 2.0, 0.4  # bound of a step in e-folds, or sizes
+MOST_STEPS = 25  # to each of the levels
 MOST_DESCENTS = 3  # where a profile finds a better estimate
-BETTER = 0.5  # of the variance: worth another descent; less widens an interval by 6 % at most
+WORTHWHILE_GAIN = 0.5  # of the variance, for another descent: less widens intervals by 6 % at most
 
 
 class Profile(NamedTuple):
@@ -43,9 +43,9 @@ def profiles(fit: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple
         return fit, tuple(Profile(np.array([x]), zero, unbounded) for x in fit.estimates)
     for _ in range(MOST_DESCENTS):
         ends = _Ends(fit)
-        for share in LEVELS:
-            ends.move_to(share * fit.quantile * fit.scatter, say)
-        if not ends.least < fit.chi_square - BETTER * fit.scatter**2:
+        for level in LEVELS:
+            ends.move_to(level * fit.quantile * fit.scatter, say)
+        if not ends.least < fit.chi_square - WORTHWHILE_GAIN * fit.scatter**2:
             break
         box = fit.theta, FARTHEST * fit.scale
         fit = Estimate(fit.model, descend(fit.model, ends.best[None], box, say)[0][0])
@@ -77,7 +77,7 @@ class _Ends:
         fit, far = self.fit, FARTHEST * self.fit.scale
         low, high = fit.theta - far, fit.theta + far
         residuals, slope = fit.model(self.points)
-        longest, active = np.full(len(self.number), FIRST), np.flatnonzero(~self.unbounded)
+        longest, active = np.full(len(self.number), FIRST_STEP), np.flatnonzero(~self.unbounded)
         slack = np.full(len(self.number), fit.quantile * fit.scatter)
         for _ in range(MOST_STEPS):
             if not len(active):
@@ -103,10 +103,11 @@ class _Ends:
             self._remember(trial, residuals_there)
             root = self._root(residuals_there)
             good = root <= limit
-            longest[active] *= np.where(good, LONGER, SHORTER)
-            slack[active] *= np.where(good & (root > level), SHORTER, 1.0)
+            longest[active] *= np.where(good, LENGTHENED, SHORTENED)
+            slack[active] *= np.where(good & (root > level), SHORTENED, 1.0)
             distance, moved_by = (np.abs(trial - x)[rows, number] for x in (fit.theta, before))
-            converged = (np.abs(root - level) <= NEAR * level) & (moved_by <= NEAR * distance)
+            converged = np.abs(root - level) <= END_TOLERANCE * level
+            converged &= moved_by <= END_TOLERANCE * distance
             accepted = active[good]
             for whole, part in zip(
                 (self.points, residuals, slope), (trial, residuals_there, trial_slope), strict=True
@@ -115,7 +116,7 @@ class _Ends:
             self.unbounded[active] = good & np.any(np.abs(trial - fit.theta) > 0.999 * far, axis=1)
             active = active[~(good & converged) & ~self.unbounded[active]]
         root = self._root(residuals)
-        self.unbounded[active] |= np.abs(root - level)[active] > OPEN_BEYOND * level
+        self.unbounded[active] |= np.abs(root - level)[active] > OPEN_END_ERROR * level
         self.seen.append((self.points.copy(), root / fit.scatter))
 
     def profile(self, end: int) -> Profile:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.faults import MOST_FAULTS_SHOWN, Faults, UsageError
-from wear.load.rows import UTF_16_MARKS, read_bytes
+from wear.load.csv_file import UTF_16_MARKS, read_bytes
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.words import is_path, shown

@@ -15,13 +15,13 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
-from wear.checked import Positive, Real, table
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics, Waves, derivative
-from wear.load.lines import ForceTable, HistoryLoad, Table
 from wear.load.periodic import Load, Smooth, centred
+from wear.load.piecewise_linear import ForceTable, HistoryLoad, Table
 from wear.load.spans import Loading
 from wear.numerics.gauss import FloatArray
+from wear.validation import Positive, Real, table
 
 __all__ = [
     "Block",
@@ -85,14 +85,14 @@ class Sine(Smooth):
 
 @table("")
 class _Level(Smooth):
-    """A constant load; `of_level` names the field with its value."""
+    """A constant load; `value_field` names the field of its value."""
 
-    of_level: ClassVar[str] = "value_mm"
+    value_field: ClassVar[str] = "value_mm"
     peaks: ClassVar[tuple[float, ...]] = (0.0,)
 
     @property
     def mean(self) -> float:
-        return float(getattr(self, self.of_level))
+        return float(getattr(self, self.value_field))
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return np.full(np.shape(phase), self.mean)
@@ -101,7 +101,7 @@ class _Level(Smooth):
         return np.zeros(np.shape(phase))
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        return {self.of_level: np.ones(phase.shape)}
+        return {self.value_field: np.ones(phase.shape)}
 
     @property
     def minimum(self) -> float:
@@ -127,7 +127,7 @@ class Force(_Level):
     The contact needs `width_mm` and `length_mm`; its pressure is R_a/(b L).
     """
 
-    of_level: ClassVar[str] = "force_N"
+    value_field: ClassVar[str] = "force_N"
     force_N: Positive = Field(description="reaction R_a of the pin")
     period_s: Positive = Field(description="period T, only to count cycles")
 

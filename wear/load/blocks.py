@@ -10,14 +10,14 @@ from typing import Annotated, Self
 import numpy as np
 from pydantic import Field, PlainValidator, ValidationError, ValidationInfo, model_validator
 
-from wear.checked import Count, Finding, SceneTable, all_wrong, problems, table, wrong
+from wear.load.conversion import PERIODIC, load_from_table
 from wear.load.periodic import Load
-from wear.load.tables import PERIODIC, load_from
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
+from wear.validation import Count, Finding, SceneTable, all_wrong, problems, table, wrong
 
 MOST_BLOCKS = 1000
-Periodic = Annotated[Load, PlainValidator(partial(load_from, kinds=PERIODIC))]
+Periodic = Annotated[Load, PlainValidator(partial(load_from_table, kinds=PERIODIC))]
 
 
 @table("")
@@ -64,7 +64,7 @@ class Blocks(SceneTable):
     repeat: Count = Field(default=1, description="how often the list is run")
 
     @model_validator(mode="after")
-    def _countable(self) -> Self:
+    def _check_count(self) -> Self:
         if self.cycles > MOST_CYCLES:
             problem = f"makes {self.cycles:.3g} cycles in all"
             raise wrong(problem, f"stay below {MOST_CYCLES:.0e}", "repeat")

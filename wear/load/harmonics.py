@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from wear.checked import Numbers, Positive, Real, table
 from wear.load.periodic import Smooth, centred, within_cycle
 from wear.numerics.gauss import FloatArray
 from wear.numerics.tolerances import ROUNDOFF
+from wear.validation import Numbers, Positive, Real, table
 
 MOST_HARMONICS = 100
 Coefficients = Annotated[tuple[float, ...], Numbers(MOST_HARMONICS)]

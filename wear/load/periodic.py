@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 
-from wear.checked import SceneTable, table
 from wear.faults import UsageError
 from wear.numerics.gauss import FloatArray
+from wear.validation import SceneTable, table
 
 
 class Load(Protocol):

@@ -13,8 +13,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from wear.load.blocks import Blocks
-from wear.load.lines import HistoryLoad
 from wear.load.periodic import Load
+from wear.load.piecewise_linear import HistoryLoad
 from wear.numerics.gauss import FloatArray
 
 FOREVER = 1 << 62

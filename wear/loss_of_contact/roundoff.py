@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.equation import APART
+from wear.equation import HALF_DIFFERENCE
 from wear.equation import roundoff as rate_roundoff
 from wear.loss_of_contact.switching import Cycles
 from wear.numerics.gauss import FloatArray
@@ -48,7 +48,7 @@ def _of_rate(cycles: Cycles, wear: FloatArray) -> FloatArray:
     error = rate_roundoff(model, peak, wear)
     if model.compliant:
         # The pressure vanishes with the margin, and no steepness can be taken there.
-        known = model.margin(wear, peak) > 2 * APART * model.fields(wear, peak).sigma
+        known = model.margin(wear, peak) > 2 * HALF_DIFFERENCE * model.fields(wear, peak).sigma
         error = np.where(known, error, 8 * ROUNDOFF)
     return error
 

@@ -24,7 +24,7 @@ from wear.report import note
 from wear.report.note import PRINTED
 from wear.solver import solve
 
-LEAST_SLOPE = 1.0 / 8.0
+LEAST_GROWTH = 1.0 / 8.0
 """The note's condition on f_c, printed after (22)."""
 
 
@@ -99,8 +99,8 @@ def simulated_wear() -> Finding:
     evidence = f"the solution gives {wear:.6e} mm, printed {PRINTED.simulated_mm:.2e} mm"
     if met:
         return Finding(Verdict.CONFIRMED, evidence)
-    slope = f"which it would give with f_c = {note.slope_for_simulation():.8g} (see C36)"
-    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}, {slope}")
+    growth = f"which it would give with f_c = {note.growth_for_simulation():.8g} (see C36)"
+    return Finding(Verdict.NOT_REPRODUCIBLE, f"{evidence}, {growth}")
 
 
 def formula_wear() -> Finding:
@@ -161,12 +161,12 @@ def quicker_for_lower_wear() -> Finding:
 
 def data_and_condition() -> Finding:
     """Decide C40: whether the data satisfy the note's condition on f_c."""
-    slopes = {name: note.scene(name).bearing.roughness_growth for name in ("section3", "section5")}
-    met = all(slope > LEAST_SLOPE for slope in slopes.values())
-    shown = ", ".join(f"f_c = {slope} in {name}" for name, slope in slopes.items())
+    growths = {name: note.scene(name).bearing.roughness_growth for name in ("section3", "section5")}
+    met = all(growth > LEAST_GROWTH for growth in growths.values())
+    shown = ", ".join(f"f_c = {growth} in {name}" for name, growth in growths.items())
     return Finding(
         Verdict.CONFIRMED if met else Verdict.INCONSISTENT,
-        f"{shown}; the note asks for f_c > {LEAST_SLOPE}; the limit of two solids, "
+        f"{shown}; the note asks for f_c > {LEAST_GROWTH}; the limit of two solids, "
         f"(two-solids-rate), is {_limit('section3'):.2e} and {_limit('section5'):.2e} mm a "
         "cycle",
     )

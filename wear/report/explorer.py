@@ -25,7 +25,7 @@ from wear.binding import bind
 from wear.faults import AccuracyError, UsageError
 from wear.fitting.readings import Specimen
 from wear.load import Constant, Harmonics, Load, Sine, Table
-from wear.load.tables import as_table
+from wear.load.conversion import as_table
 from wear.parameters import AREA
 from wear.report.html import TEMPLATES, asset, style
 from wear.resampling import resampled

@@ -100,9 +100,9 @@ class Reconciliation(NamedTuple):
         )
 
 
-def _simulated(slope: float) -> float:
-    """Return the wear (mm) of the cycle after the printed number of cycles with an f_c."""
-    changed = scene("section4").with_({"bearing.roughness_growth": slope})
+def _simulated(growth: float) -> float:
+    """Return the wear (mm) of the cycle after the printed number of cycles, with another f_c."""
+    changed = scene("section4").with_({"bearing.roughness_growth": growth})
     return float(increments_after(changed, PRINTED.cycles)[0])
 
 
@@ -112,16 +112,16 @@ def reconciliation() -> Reconciliation:
     numbers = scene("section4").parameters()
     data = {name: numbers[name] for name in ("T", "K_c", "H_c", "R", "n")}
     largest = formula.wear_per_cycle(**data, p_inf=numbers["p_max"])
-    slope = float(formula.slope_threshold(epsilon=PRINTED.formula_mm / largest))
-    return Reconciliation(slope, _simulated(slope))
+    growth = float(formula.slope_threshold(epsilon=PRINTED.formula_mm / largest))
+    return Reconciliation(growth, _simulated(growth))
 
 
 @cache
-def slope_for_simulation() -> float:
+def growth_for_simulation() -> float:
     """Return the f_c with which the simulation gives the printed simulated value."""
     from scipy.optimize import brentq
 
     least = scene("section4").bearing.roughness_growth
     return float(
-        brentq(lambda slope: _simulated(slope) - PRINTED.simulated_mm, least, 0.5, rtol=1e-10)
+        brentq(lambda growth: _simulated(growth) - PRINTED.simulated_mm, least, 0.5, rtol=1e-10)
     )

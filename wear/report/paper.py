@@ -30,7 +30,7 @@ from wear.benchmark import results
 from wear.benchmark.methods import cases
 from wear.figures import speed_against_cycles
 from wear.generated import asymptotics
-from wear.report import drawing, figures_of_note, note
+from wear.report import figures_of_note, note, schematic
 from wear.report.claims import Entry
 from wear.report.document import DisplayedEquation, Document, FigureFiles, drawn
 from wear.report.equations import capital, shown
@@ -105,7 +105,7 @@ def drawings(runs: Runs) -> Mapping[str, FigureFiles]:
     """Return the figures of the paper by label."""
     return drawn(
         {
-            "system": drawing.system(),
+            "system": schematic.system(),
             "wear-curve": figures_of_note.wear_curve(runs),
             "regimes": figures_of_note.regimes(
                 {f"§\u2009{name[-1]}": runs.histories[name].definition for name in note.EXAMPLES}
@@ -113,7 +113,7 @@ def drawings(runs: Runs) -> Mapping[str, FigureFiles]:
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(
                 results.curves_by_cycles(
-                    results.committed().runs, results.READER, results.DIGITS[0]
+                    results.committed().runs, results.SHOWN_SCENE, results.DIGITS[0]
                 )
             ),
             "figure-2a": figures_of_note.wear_of_both(runs),

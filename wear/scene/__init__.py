@@ -19,14 +19,14 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PlainValidator, ValidationError, model_validator
 
-from wear.checked import Finding, Prose, SceneTable, Text, problems, table, wrong
 from wear.faults import Fault, SceneError, UsageError
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
-from wear.load.rows import MISSING, read_bytes
-from wear.load.tables import as_table, load_from
+from wear.load.conversion import as_table, load_from_table
+from wear.load.csv_file import MISSING, read_bytes
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 from wear.scene.text import MOST_BYTES, PARTS, Source, read_tables, set_entry
-from wear.scene.variant import KEYS, OF_PIN, VariantKey
+from wear.scene.variant import KEYS, PIN_PARAMETERS, VariantKey
+from wear.validation import Finding, Prose, SceneTable, Text, problems, table, wrong
 from wear.words import are_texts, did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
@@ -44,7 +44,9 @@ class Scene(SceneTable):
     bearing: Bearing = Field(description="the bearing, which wears")
     contact: Contact = Field(description="how closure and roughness make a pressure")
     motion: Motion = Field(description="the rotation of the pin")
-    load: Annotated[Loading, PlainValidator(load_from)] = Field(description="the motion U_a(t)")
+    load: Annotated[Loading, PlainValidator(load_from_table)] = Field(
+        description="the displacement U_a(t) of the pin, or its reaction R_a(t)"
+    )
     pin: Pin | None = Field(default=None, description="the pin")
     support: Support | None = Field(default=None, description="the springs under the bearing")
     title: Text = Field(default="", description="one line that names the scene")
@@ -151,7 +153,7 @@ class Scene(SceneTable):
         return isinstance(self.load, Force | ForceTable)
 
     @model_validator(mode="after")
-    def _carried(self) -> Self:
+    def _check_force(self) -> Self:
         """Refuse a given reaction without an area, or beyond the capacity of the contact."""
         if not self.given_load:
             return self
@@ -188,7 +190,7 @@ class Scene(SceneTable):
         >>> sorted(load_scene("section4").parameters())
         ['H_c', 'K_c', 'R', 'T', 'f_c', 'h_0', 'n', 'p_max', 'sigma_c0']
         """
-        pin = OF_PIN[self._pin_state]
+        pin = PIN_PARAMETERS[self._pin_state]
         numbers: dict[str, float] = {}
         for symbol, (name, key) in KEYS.items():
             part = getattr(self, name)

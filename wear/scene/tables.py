@@ -9,7 +9,10 @@ from typing import Annotated, Any
 from pydantic import Field, PlainValidator, ValidationInfo
 
 from wear import own_laws
-from wear.checked import (
+from wear.faults import UsageError
+from wear.load.csv_file import read_bytes
+from wear.scene.text import MOST_BYTES
+from wear.validation import (
     Finding,
     Flag,
     NonNegative,
@@ -21,9 +24,6 @@ from wear.checked import (
     table,
     wrong,
 )  # fmt: skip
-from wear.faults import UsageError
-from wear.load.rows import read_bytes
-from wear.scene.text import MOST_BYTES
 from wear.words import shown
 
 CLOSURES = ("closure_mm", "closure_in_sigma")

@@ -12,8 +12,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from wear.checked import TABLES, Path, place_of
 from wear.faults import Fault, SceneError
+from wear.validation import TABLES, Path, place_of
 from wear.words import shown
 
 MOST_BYTES = 256 * 1024

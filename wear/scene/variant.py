@@ -21,13 +21,13 @@ KEYS: Mapping[str, tuple[str, str]] = {
     "n": ("motion", "speed_rpm"),
 }
 """Table and key of each parameter in a scene file, by symbol; without those of the load."""
-OF_PIN = {
+PIN_PARAMETERS = {
     "bearing": (),
     "rough": ("sigma_a0",),
     "worn": ("K_a", "H_a"),
     "worn_rough": ("K_a", "H_a", "sigma_a0", "f_a"),
 }
-"""The parameters of the pin that are modelled, by its state."""
+"""The parameters of the pin that the generated module has, by the pin's state."""
 
 
 class VariantKey(NamedTuple):

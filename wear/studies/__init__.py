@@ -7,7 +7,7 @@ Overview
 Contents
     vary      one varied number of the scene: its levels, or its distribution
     design    grid, Sobol', Latin hypercube, random: the rows of every chunk
-    rows      the rows of one chunk, solved together
+    rows      `Study`, the request; the rows of one chunk, solved together
     store     the results on disk, in whole chunks
     run       the chunks through any executor
     indices   Sobol' indices

@@ -9,7 +9,7 @@ import pytest
 
 from wear import figures
 from wear.figure_data import WEAR, Line, Panel
-from wear.report import drawing
+from wear.report import schematic
 from wear.report.document import DisplayedEquation as Equation
 from wear.report.document import Document, FigureFiles, drawn
 from wear.report.number import TextNumber
@@ -52,7 +52,7 @@ def _figures() -> Mapping[str, FigureFiles]:
     lines = (Line("bearing", x, 1e-4 * np.log1p(x)), Line("pin", x, 3e-5 * np.log1p(x), 1))
     return drawn(
         {
-            "system": drawing.system(),
+            "system": schematic.system(),
             "wear": figures.history([Panel(WEAR, lines)]),
             "again": figures.history([Panel(WEAR, lines[:1])]),
         }

@@ -52,4 +52,4 @@ def test_another_f_c_reconciles_the_printed_numbers() -> None:
     found = note.reconciliation()
     assert found.value == pytest.approx(0.41729339833096945516, rel=1e-14)
     assert found.misfit == pytest.approx(-0.0040, abs=2e-4)
-    assert note.slope_for_simulation() == pytest.approx(found.value, rel=1e-3)
+    assert note.growth_for_simulation() == pytest.approx(found.value, rel=1e-3)

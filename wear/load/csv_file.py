@@ -19,7 +19,8 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import AfterValidator, Field, PlainValidator, ValidationError
 
-from wear.checked import (
+from wear.numerics.gauss import FloatArray
+from wear.validation import (
     BOUNDS,
     Finding,
     Flag,
@@ -33,7 +34,6 @@ from wear.checked import (
     table,
     wrong,
 )
-from wear.numerics.gauss import FloatArray
 from wear.words import shown
 
 MOST_BYTES = 64 * 1024 * 1024

@@ -70,7 +70,7 @@ def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, 
     ]
 
 
-class Kind:
+class EntryKind:
     """The kind of an entry, for an annotation; its call returns the value or raises `wrong`."""
 
     def __call__(self, raw: Any, key: str) -> Any:
@@ -82,7 +82,7 @@ class Kind:
 
 
 @dataclasses.dataclass(frozen=True)
-class Number(Kind):
+class Number(EntryKind):
     """A finite number of sane size, of a `domain`: '> 0', '>= 0' or '' for all."""
 
     domain: str = ""
@@ -126,7 +126,7 @@ def is_sane(number: float) -> bool:
 
 
 @dataclasses.dataclass(frozen=True)
-class Numbers(Kind):
+class Numbers(EntryKind):
     """A list of at most `most` numbers."""
 
     most: int = 1_000_000
@@ -155,7 +155,7 @@ class Numbers(Kind):
 
 
 @dataclasses.dataclass(frozen=True)
-class Words(Kind):
+class Words(EntryKind):
     """At most `most` printable characters, in one line or in several."""
 
     most: int = 200
@@ -172,7 +172,7 @@ class Words(Kind):
 
 
 @dataclasses.dataclass(frozen=True)
-class OneOf(Kind):
+class OneOf(EntryKind):
     """One of some names."""
 
     names: Collection[str]
@@ -243,7 +243,7 @@ class SceneTable:
 
     @model_validator(mode="wrap")
     @classmethod
-    def _explained(cls, raw: Any, build: Callable[[Any], Any]) -> Any:
+    def _validated(cls, raw: Any, build: Callable[[Any], Any]) -> Any:
         """Build the table, or raise every fault of its entries and relations in words."""
         known: Mapping[str, Any] = cls.entries
         if isinstance(raw, ArgsKwargs):
@@ -262,10 +262,10 @@ class SceneTable:
                 remedy = line if cls.place else "give a mapping of tables by their names"
                 raise wrong("is not a table", remedy) from None
         unknown = [key for key in given if key not in known]
-        shown_keys = [_of_unknown(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
-        meant = {key for key, _ in shown_keys} - {""}
-        faults = [finding for _, finding in shown_keys]
-        if len(unknown) > len(shown_keys):
+        reported = [_unknown_key(cls, key, given[key]) for key in unknown[:MOST_UNKNOWN_KEYS]]
+        meant = {key for key, _ in reported} - {""}
+        faults = [finding for _, finding in reported]
+        if len(unknown) > len(reported):
             faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
             instance = build({key: value for key, value in given.items() if key in known})
@@ -275,7 +275,7 @@ class SceneTable:
                 if entry["type"] == "wrong":
                     faults.append((entry["loc"], entry["ctx"]["problem"], entry["ctx"]["remedy"]))
                 elif name not in meant:
-                    faults.append(((name,), "missing", _to_add(cls, name)))
+                    faults.append(((name,), "missing", _remedy_if_missing(cls, name)))
         present = {key: entry for key, entry in given.items() if entry is not None}
         faults += cls.relations(dict.fromkeys(meant, ...) | present)
         if faults:
@@ -334,7 +334,7 @@ def place_of(path: Path) -> tuple[str, str]:
 # Faults in words
 
 
-def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Finding]:
+def _unknown_key(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Finding]:
     """Return the known key that an unknown one seems to mean, '' if none, and the finding."""
     meant = RENAMED.get(name, "")
     if meant in kind.entries:
@@ -352,7 +352,7 @@ def _of_unknown(kind: type[SceneTable], name: str, raw: object) -> tuple[str, Fi
     return meant, ((name,), f"unknown {'table' if isinstance(raw, Mapping) else 'key'}", remedy)
 
 
-def _to_add(kind: type[SceneTable], key: str) -> str:
+def _remedy_if_missing(kind: type[SceneTable], key: str) -> str:
     field = kind.entries[key]
     if any(key == each.place for each in TABLES):
         return f"add a table [{key}] ({field.description})"

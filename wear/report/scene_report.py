@@ -1,4 +1,4 @@
-"""The report of a user's scene: the machinery of the paper with the text ``scene.md``."""
+"""The report of a user's scene: the text ``scene.md`` with its values and figures."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from wear.load import Blocks, HistoryLoad
 from wear.load.spans import most_cycles
 from wear.own_laws import PREFIX, is_own
 from wear.regime import Asymptote, asymptote
-from wear.report import drawing
+from wear.report import schematic
 from wear.report.document import Document, drawn
 from wear.report.equations import shown
 from wear.report.explorer_derived import holding
@@ -39,13 +39,12 @@ from wear.scene.notices import implausible_results
 from wear.sensitivities import Sensitivities, sensitivity
 from wear.solver import solve
 
-#: Depths whose life is reported, in initial roughnesses, and cycles whose pressure is drawn.
-_DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
-_INSIDE = (0, 10, 100, 1000)
-_LAST = 10**8
+_DEPTHS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)  # whose life is reported, in initial roughnesses
+_INSIDE = (0, 10, 100, 1000)  # cycles whose pressure is drawn
+_LAST = 10**8  # cycle of the curves
 _POINTS = 120  # of a curve
 _EARLY = 1000  # cycles after which sensitivities are shown beside those at the last cycle
-_BARS = 15
+_BARS = 15  # of the tornado diagram
 
 
 def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Document:
@@ -68,14 +67,14 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "written": number,
         "notices": _notices(scene, limit, curve),
         "identifiers": list(equations),
-        "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _is_round(cycle)] + [-1],
+        "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _power_of_ten(cycle)] + [-1],
         "life": list(_life(scene)) if obstacle(scene) is None else [],
         "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
         "command": command,
         "versions": versions(),
     }
     drawings = {
-        "scene": drawing.of_scene(scene),
+        "scene": schematic.of_scene(scene),
         "history": figures.history(panels_of([curve]), logarithmic=True),
     }
     if pressures is not None:
@@ -93,7 +92,7 @@ def _solved(scene: Scene) -> History:
     """Return the state along cycles, powers of ten among them, up to the end of the load and within
     the scope of the model."""
     curve = _best(scene, min(_LAST, most_cycles(scene.load)))
-    ends = [n for n in range(1, len(curve.cycles) + 1) if _is_round(curve.cycles[n - 1])]
+    ends = [n for n in range(1, len(curve.cycles) + 1) if _power_of_ten(curve.cycles[n - 1])]
     plausible = [
         int(curve.cycles[n - 1])
         for n in ends
@@ -118,7 +117,7 @@ def _best(scene: Scene, last: int) -> History:
         return best
 
 
-def _is_round(cycle: int) -> bool:
+def _power_of_ten(cycle: int) -> bool:
     return str(cycle).strip("0") == "1"
 
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from pydantic import ValidationInfo
 
-from wear.checked import TABLES, SceneTable, choice, wrong
-from wear.load.lines import ForceTable, HistoryLoad, Table, load_of
-from wear.load.rows import ForceFile, RowsFile
+from wear.load.csv_file import ForceFile, RowsFile
+from wear.load.piecewise_linear import ForceTable, HistoryLoad, Table, load_from_file
+from wear.validation import TABLES, SceneTable, choice, wrong
 from wear.words import did_you_mean, shown
 
 PERIODIC = ("sine", "constant", "harmonics", "table")
@@ -18,7 +18,7 @@ ROWS = {"table": Table, "force": ForceTable, "history": HistoryLoad}
 """Loads whose rows are in the scene file itself."""
 
 
-def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
+def load_from_table(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
     """Return the load of a `[load]` table of one of these kinds, or a load unchanged.
 
     The context's `folder` is where CSV files are looked for. Raises pydantic's `ValidationError`.
@@ -39,11 +39,12 @@ def load_from(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS)
     tables = {each.kind: each for each in TABLES} | by_rows
     validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
     load = validator.validate_python(entries, context=info.context)
-    return load_of(load, (info.context or {}).get("folder")) if isinstance(load, RowsFile) else load
+    folder = (info.context or {}).get("folder")
+    return load_from_file(load, folder) if isinstance(load, RowsFile) else load
 
 
 def as_table(load: Any) -> dict[str, Any]:
-    """Return the `[load]` table that `load_from` converts to an equal load.
+    """Return the `[load]` table that `load_from_table` converts to an equal load.
 
     >>> as_table(Table((0.0, 1.0), (0.0, 0.0)))
     {'kind': 'table', 'times_s': [0.0, 1.0], 'values_mm': [0.0, 0.0]}

@@ -1,4 +1,4 @@
-"""Displacements and forces given by rows: straight lines between them, periodic or not."""
+"""Piecewise linear displacements and forces, given by rows: periodic tables, measured histories."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ import numpy as np
 from pydantic import Field, model_validator
 from pydantic_core import ArgsKwargs
 
-from wear.checked import Positive, Reals, SceneTable, all_wrong, table, wrong
+from wear.load.csv_file import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.load.periodic import inside, within_cycle
-from wear.load.rows import ForceFile, HistoryFile, RowsFile, TableFile, order_faults, read_rows
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of
+from wear.validation import Positive, Reals, SceneTable, all_wrong, table, wrong
 
 T = TypeVar("T", "Table", "ForceTable", "HistoryLoad")
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
@@ -24,15 +24,15 @@ SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to 
 
 @table("")
 class _Rows(SceneTable):
-    """Values at times in s that rise from 0; `of_rows` names the field that holds the values."""
+    """Values at times in s that rise from 0; `value_field` names the field of the values."""
 
-    of_rows: ClassVar[str] = "values_mm"
+    value_field: ClassVar[str] = "values_mm"
     times_s: Reals = Field(description="times of the rows, from 0")
 
     @property
     def rows(self) -> tuple[float, ...]:
         """Return the value of each row, in mm, or in N for a force."""
-        values: tuple[float, ...] = getattr(self, self.of_rows)
+        values: tuple[float, ...] = getattr(self, self.value_field)
         return values
 
     @cached_property
@@ -48,32 +48,32 @@ class _Rows(SceneTable):
         return np.asarray(self.rows)
 
     @cached_property
-    def _places(self) -> FloatArray:
+    def _abscissae(self) -> FloatArray:
         """Return the abscissae of the rows: their times."""
         return np.asarray(self.times_s)
 
-    def _between(self, at: FloatArray) -> FloatArray:
+    def _interpolated(self, at: FloatArray) -> FloatArray:
         """Return the values on the straight lines between the rows."""
-        return np.asarray(np.interp(at, self._places, self._values))
+        return np.asarray(np.interp(at, self._abscissae, self._values))
 
-    def _steepness(self, at: FloatArray) -> FloatArray:
-        """Return the slope of the straight line that starts at or before each place."""
-        slopes = np.diff(self._values) / np.diff(self._places)
-        line = np.searchsorted(self._places, at, side="right") - 1
+    def _slope(self, at: FloatArray) -> FloatArray:
+        """Return the slope at each abscissa; at a row, that of the line to its right."""
+        slopes = np.diff(self._values) / np.diff(self._abscissae)
+        line = np.searchsorted(self._abscissae, at, side="right") - 1
         return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
 
     @cached_property
     def mean(self) -> float:
-        areas = 0.5 * np.diff(self._places) * (self._values[1:] + self._values[:-1])
-        return math.fsum(areas.tolist()) / float(self._places[-1] - self._places[0])
+        areas = 0.5 * np.diff(self._abscissae) * (self._values[1:] + self._values[:-1])
+        return math.fsum(areas.tolist()) / float(self._abscissae[-1] - self._abscissae[0])
 
     def __repr__(self) -> str:
-        values, duration, unit = self.rows, self.times_s[-1], unit_of(self.of_rows)
+        values, duration, unit = self.rows, self.times_s[-1], unit_of(self.value_field)
         within = f"{min(values):g} to {max(values):g} {unit} in {duration:g} s"
         return f"<{type(self).__name__}: {len(values)} rows, {within}>"
 
     @model_validator(mode="after")
-    def _ordered(self) -> Self:
+    def _check_order(self) -> Self:
         rows = len(self.times_s)
         if rows < 2 or len(self.rows) != rows:
             problem = f"there are {rows} times and {len(self.rows)} values"
@@ -84,33 +84,33 @@ class _Rows(SceneTable):
 
 
 @table("")
-class _Period(_Rows):
+class _PeriodicRows(_Rows):
     """Straight lines between rows over one period; the first row, at t = 0, is also the last."""
 
     @model_validator(mode="after")
-    def _closed(self) -> Self:
+    def _check_closed(self) -> Self:
         first, last = self.rows[0], self.rows[-1]
         if first != last:
             problem = f"the load jumps at the seam from {last!r} to {first!r}"
-            raise wrong(problem, "repeat the first in the last row", self.of_rows)
+            raise wrong(problem, "repeat the first in the last row", self.value_field)
         return self
 
     @cached_property
-    def _places(self) -> FloatArray:
+    def _abscissae(self) -> FloatArray:
         """Return the abscissae of the rows: their phases."""
         return np.asarray(self.times_s) / self.period
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return self._between(within_cycle(phase))
+        return self._interpolated(within_cycle(phase))
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        return self._steepness(within_cycle(phase) % 1.0)
+        return self._slope(within_cycle(phase) % 1.0)
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
         at, rows = within_cycle(phase), np.eye(len(self.rows))
         rows[0, -1] = 1.0  # the seam
-        hats = (np.interp(at, self._places, row) for row in rows[:-1])
-        return {f"{self.of_rows}[{j}]": hat for j, hat in enumerate(hats)}
+        hats = (np.interp(at, self._abscissae, row) for row in rows[:-1])
+        return {f"{self.value_field}[{j}]": hat for j, hat in enumerate(hats)}
 
     @property
     def period(self) -> float:
@@ -118,7 +118,7 @@ class _Period(_Rows):
 
     @cached_property
     def kinks(self) -> tuple[float, ...]:
-        return tuple(self._places[:-1].tolist())
+        return tuple(self._abscissae[:-1].tolist())
 
     @cached_property
     def peaks(self) -> tuple[float, ...]:
@@ -127,11 +127,11 @@ class _Period(_Rows):
         if len(moving) == 0:
             return (0.0,)
         falls_next = (rises[moving] > 0.0) & (rises[np.roll(moving, -1)] < 0.0)
-        return tuple(np.sort(self._places[moving[falls_next] + 1] % 1.0).tolist())
+        return tuple(np.sort(self._abscissae[moving[falls_next] + 1] % 1.0).tolist())
 
 
 @table("")
-class Table(_Period):
+class Table(_PeriodicRows):
     """U_a in mm by straight lines between rows over one period.
 
     `times_s` runs from 0 to the period. `source` is the file of the rows, if any.
@@ -147,16 +147,16 @@ class Table(_Period):
 
 
 @table("")
-class ForceTable(_Period):
+class ForceTable(_PeriodicRows):
     """R_a in N by straight lines between rows over one period."""
 
-    of_rows: ClassVar[str] = "forces_N"
+    value_field: ClassVar[str] = "forces_N"
     forces_N: Reals = Field(description="R_a at these times")
     source: ForceFile | None = Field(default=None, exclude=True)
     __repr__ = _Rows.__repr__
 
     @model_validator(mode="after")
-    def _pressed(self) -> Self:
+    def _check_sign(self) -> Self:
         if self.minimum < 0.0 or self.maximum == 0.0:
             problem = f"the force goes from {self.minimum:g} to {self.maximum:g} N"
             raise wrong(problem, "give forces >= 0, not all of them zero", "forces_N")
@@ -179,21 +179,21 @@ class HistoryLoad(_Rows):
     __repr__ = _Rows.__repr__
 
     @model_validator(mode="after")
-    def _has_a_cycle(self) -> Self:
+    def _check_duration(self) -> Self:
         if self.cycles < 1.0 - SEAM_TOLERANCE:
             problem = f"is longer than the rows, which end at t_s = {self.duration!r}"
             raise wrong(problem, "give the time of a cycle, or drop it", "period_s")
         return self
 
     def __call__(self, time: FloatArray | float) -> FloatArray:
-        return self._between(inside(time, self.duration))
+        return self._interpolated(inside(time, self.duration))
 
     def slope(self, time: FloatArray | float) -> FloatArray:
-        return self._steepness(inside(time, self.duration))
+        return self._slope(inside(time, self.duration))
 
     def breakpoints(self, start: float, end: float) -> FloatArray:
-        first = np.searchsorted(self._places, start, side="right")
-        return self._places[first : np.searchsorted(self._places, end, side="left")]
+        first = np.searchsorted(self._abscissae, start, side="right")
+        return self._abscissae[first : np.searchsorted(self._abscissae, end, side="left")]
 
     @property
     def duration(self) -> float:
@@ -208,7 +208,7 @@ class HistoryLoad(_Rows):
         return inside(np.asarray(cycles) * self.period_s, self.duration)
 
 
-def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
+def load_from_file(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
     """Return the load of a CSV file, or raise pydantic's `ValidationError` with all its faults."""
     repeat = isinstance(form, TableFile) and form.repeat
     rows = read_rows(form, folder, from_first=repeat)
@@ -218,7 +218,7 @@ def load_of(form: RowsFile, folder: Path | None) -> Table | ForceTable | History
         period = form.period_s or float(times[-1])
         return _validated(HistoryLoad, _floats(times), _floats(values), period, source)
     assert isinstance(source, TableFile)
-    times, values = _closed(times, values, form.period_s, repeat)
+    times, values = _one_period(times, values, form.period_s, repeat)
     if isinstance(source, ForceFile):
         return _validated(ForceTable, _floats(times), _floats(values), source)
     return _validated(Table, _floats(times), _floats(values), source)
@@ -235,11 +235,11 @@ def _floats(array: FloatArray) -> tuple[float, ...]:
     return tuple(array.tolist())
 
 
-def _closed(
+def _one_period(
     times: FloatArray, values: FloatArray, period: float | None, repeat: bool
 ) -> tuple[FloatArray, FloatArray]:
-    """Return rows over one period, the last of which repeats the first: those of the file, or to
-    `repeat` a record its rows before the end of the period, closed by a straight line."""
+    """Return rows over one period, the last of which repeats the first: those of the file, or
+    to `repeat` a record those before the end of the period, closed by a straight line."""
     last, step = float(times[-1]), float(np.median(np.diff(times))) if repeat else 0.0
     period = last + step if period is None else period
     slack = SEAM_TOLERANCE * period
