@@ -6,7 +6,7 @@ Overview
     and compares it with the values from Python.
 Key results
     page            the file of the page
-    opened          the initial scene, with no more rows of its load than needed
+    for_plots       a scene with no more rows of its load than plots need
     scene_data      a scene in the numbers of the sliders
     check_data      wear and wear rates of a scene, computed in Python
 """
@@ -40,10 +40,10 @@ AGREEMENT = {"wear": 1e-7, "rate": 1e-12}
 SCRIPTS = ("explorer.solve.js", "explorer.plot.js", "explorer.scene.js", "explorer.page.js")
 CYCLES = (1, 10, 100, 1000, 10000)
 MICROMETRES = 1e3  # in a mm
-SMALL = ("sigma_c0", "sigma_a0", "h_0", "U")
+IN_MICROMETRES = ("sigma_c0", "sigma_a0", "h_0", "U")
 """Lengths that the page shows in micrometres."""
-PLOTTED = 4e-3
-"""Relative accuracy of the wear for which the rows of a measured load are merged: a quarter of it
+PLOT_RTOL = 4e-3
+"""Relative accuracy of the wear to which the rows of a measured load are merged: a quarter of it
 moves no pixel."""
 GROUPS: Mapping[str, Mapping[str, tuple[float, float]]] = {
     "Bearing": {
@@ -90,7 +90,7 @@ def _data(
     first: Scene, derived: Mapping[str, Any], specimens: Sequence[Specimen]
 ) -> dict[str, Any]:
     scenes = {name: load_scene(name) for name in builtin_names()}
-    first = opened(first)
+    first = for_plots(first)
     if first.name not in scenes or scenes[first.name] != first:
         name = f"{first.name} (changed)" if first.name in scenes else first.name
         first = replace(first, name=name)
@@ -113,7 +113,7 @@ def _data(
     }
 
 
-def opened(scene: Scene) -> Scene:
+def for_plots(scene: Scene) -> Scene:
     """Return a scene whose load has as few rows as a plot needs, with a note in its description.
 
     Raises
@@ -123,7 +123,7 @@ def opened(scene: Scene) -> Scene:
     """
     if own_laws.is_own(scene.contact.law):
         raise UsageError("the explorer has the contact laws of the package alone")
-    fewer = resampled(scene, PLOTTED)
+    fewer = resampled(scene, PLOT_RTOL)
     peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
     described = " ".join([scene.description, *(f"{text}." for text in fewer.notices), peaks])
     return replace(fewer.scene, description=described.strip())

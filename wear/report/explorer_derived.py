@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from derive.laws import LAWS, TANH
 from derive.typeset import mathml
 from wear.report.equations import capital
-from wear.report.explorer import GROUPS, MICROMETRES, SMALL
+from wear.report.explorer import GROUPS, MICROMETRES, IN_MICROMETRES
 
 FILE = "explorer.derived.json"
 
@@ -189,8 +189,8 @@ def parameter_rows() -> list[dict[str, Any]]:
                 "name": name,
                 "meaning": quantity.meaning.split(", ")[0],
                 "latex": quantity.latex,
-                "unit": "µm" if name in SMALL else unit,
-                "scale": MICROMETRES if name in SMALL else 1.0,
+                "unit": "µm" if name in IN_MICROMETRES else unit,
+                "scale": MICROMETRES if name in IN_MICROMETRES else 1.0,
                 "low": low,
                 "high": high,
                 "logarithmic": quantity.domain == POSITIVE,
