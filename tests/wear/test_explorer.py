@@ -562,7 +562,8 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
     assert window.run("document.getElementById('check').className").endswith("good")
     assert window.run("document.querySelectorAll('#plot-wear .dot').length") == 2
     found, merged = (
-        wear.solve(each, [10_000], rtol=1e-4).pressures for each in (scene, explorer.for_plots(scene))
+        wear.solve(each, [10_000], rtol=1e-4).pressures
+        for each in (scene, explorer.for_plots(scene))
     )
     assert number(text(window, "value-mean-now")) == pytest.approx(found.mean[0], rel=1e-3)
     assert number(text(window, "value-peak-now")) == pytest.approx(merged.peak[0], rel=1e-3)

@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 from derive.laws import LAWS, TANH
 from derive.typeset import mathml
 from wear.report.equations import capital
-from wear.report.explorer import GROUPS, MICROMETRES, IN_MICROMETRES
+from wear.report.explorer import GROUPS, IN_MICROMETRES, MICROMETRES
 
 FILE = "explorer.derived.json"
 
