@@ -16,7 +16,7 @@ from wear.fitting.residuals import rms
 from wear.numerics.gauss import FloatArray
 
 CONFIDENCE = 0.95
-FARTHEST = 7.0  # e-folds (a factor of a thousand), or sizes: range of a parameter
+PARAMETER_RANGE = 7.0  # on each side: e-folds (a factor of a thousand), or sizes
 RANK_TOLERANCE = 1e-7  # of the largest singular value: smaller ones are errors of the derivatives
 
 
@@ -128,7 +128,7 @@ class Estimate:
         """Return the standard errors of the estimates in the units of their keys, infinite where
         the data do not determine them."""
         errors = self.spread(np.eye(len(self.theta)))
-        known = errors < FARTHEST * self.scale
+        known = errors < PARAMETER_RANGE * self.scale
         sizes = [value if p.positive else 1.0
                  for p, value in zip(self.parameters, self.estimates, strict=True)]  # fmt: skip
         return [float(x) for x in np.where(known, errors * sizes, np.inf)]

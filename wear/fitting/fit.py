@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.faults import Faults
 from wear.fitting import identifiability, laws
-from wear.fitting.estimate import FARTHEST, Estimate
+from wear.fitting.estimate import PARAMETER_RANGE, Estimate
 from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
@@ -164,7 +164,7 @@ class Fit(Estimate):
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
             return float(np.nan)
-        box = self.theta, FARTHEST * self.scale
+        box = self.theta, PARAMETER_RANGE * self.scale
         theta = descend(early, self.theta[None], box)[0][0]
         level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
         return laws.forecast_rms(model.specimens, level[0])

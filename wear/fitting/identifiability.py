@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, Estimate
+from wear.fitting.estimate import PARAMETER_RANGE, Estimate
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile
 from wear.numerics.gauss import FloatArray
@@ -58,7 +58,7 @@ def _by_key(parameters: Sequence[Parameter], powers: FloatArray) -> dict[str, fl
 
 def _sentence(powers: dict[str, float], error: float) -> str:
     """Return the sentence on a combination that the data leave open."""
-    factor = f"a factor e^{error:.2g}" if error < FARTHEST else "beyond all bounds"
+    factor = f"a factor e^{error:.2g}" if error < PARAMETER_RANGE else "beyond all bounds"
     if len(powers) == 1:
         return f"The data do not determine {next(iter(powers))}: its standard error is {factor}."
     *names, last = powers

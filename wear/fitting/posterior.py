@@ -7,7 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from wear.faults import UsageError
-from wear.fitting.estimate import FARTHEST, Estimate
+from wear.fitting.estimate import PARAMETER_RANGE, Estimate
 from wear.numerics.gauss import FloatArray
 
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
@@ -43,7 +43,7 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     import emcee
 
     def log_density(points: FloatArray) -> FloatArray:
-        inside = np.all(np.abs(points - found.theta) < FARTHEST * found.scale, axis=1)
+        inside = np.all(np.abs(points - found.theta) < PARAMETER_RANGE * found.scale, axis=1)
         density = np.full(len(points), -np.inf)
         if inside.any():
             square = found.model.cost(points[inside])

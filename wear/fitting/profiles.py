@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import FARTHEST, RANK_TOLERANCE, Estimate
+from wear.fitting.estimate import PARAMETER_RANGE, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.tolerances import TINY
@@ -47,7 +47,7 @@ def profiles(fit: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple
             ends.move_to(level * fit.quantile * fit.scatter, say)
         if not ends.least < fit.chi_square - WORTHWHILE_GAIN * fit.scatter**2:
             break
-        box = fit.theta, FARTHEST * fit.scale
+        box = fit.theta, PARAMETER_RANGE * fit.scale
         fit = Estimate(fit.model, descend(fit.model, ends.best[None], box, say)[0][0])
     made = {number: ends.profile(2 * i) for i, number in enumerate(moved(fit))}
     return fit, tuple(made.get(i) or _linear(fit, i) for i in range(len(fit.theta)))
@@ -74,7 +74,7 @@ class _Ends:
 
     def move_to(self, level: float, say: Callable[[str], None]) -> None:
         """Move the ends until the root of the deviance is at a `level`, in units of residuals."""
-        fit, far = self.fit, FARTHEST * self.fit.scale
+        fit, far = self.fit, PARAMETER_RANGE * self.fit.scale
         low, high = fit.theta - far, fit.theta + far
         residuals, slope = fit.model(self.points)
         longest, active = np.full(len(self.number), FIRST_STEP), np.flatnonzero(~self.unbounded)
@@ -184,7 +184,7 @@ def _linear(fit: Estimate, index: int) -> Profile:
     """Return the profile of a parameter in the linearised model."""
     parameter, limit = fit.parameters[index], fit.quantile
     width = limit * float(fit.spread(np.eye(len(fit.theta))[index]))
-    farthest = FARTHEST * float(fit.scale[index])
+    farthest = PARAMETER_RANGE * float(fit.scale[index])
     steps = min(width, farthest) * np.array([-1.0, 0.0, 1.0])
     values = parameter.value(fit.theta[index] + steps)
     ends = (float(values[0]), float(values[2])) if width < farthest else (-np.inf, np.inf)

@@ -76,7 +76,7 @@ class Distribution:
 Vary = Levels | Distribution
 
 # The condition on the two parameters of a distribution, and its message.
-_LAWS = {
+DISTRIBUTIONS = {
     "uniform": (lambda low, high: low < high, "uniform(low,high) needs low < high"),
     "loguniform": (lambda low, high: 0 < low < high, "loguniform(low,high) needs 0 < low < high"),
     "normal": (lambda _, deviation: deviation > 0, "normal(mean,sd) needs sd > 0"),
@@ -113,9 +113,9 @@ def parse(text: str) -> Vary:
 
 
 def _distribution(key: str, law: str, parameters: tuple[float, ...]) -> Distribution:
-    if law not in _LAWS:
-        raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(_LAWS)}")
-    meets, rule = _LAWS[law]
+    if law not in DISTRIBUTIONS:
+        raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(DISTRIBUTIONS)}")
+    meets, rule = DISTRIBUTIONS[law]
     if len(parameters) != 2 or not meets(*parameters):
         raise UsageError(f"{key}: {rule}")
     return Distribution(key, law, (parameters[0], parameters[1]))
