@@ -32,6 +32,7 @@ from wear.states import notices_of_wear
 MOST_ITERATIONS = 50
 MOST_SHOWN = 5  # depths, where a life is shown in a line
 LARGEST_ERROR = 1e-3  # of an extrapolation that is reported
+NO_DIGIT = 1.0  # relative error of a number that is not known
 
 
 class Reached(Enum):
@@ -40,6 +41,7 @@ class Reached(Enum):
     COUNTED = "counted"
     EXTRAPOLATED = "extrapolated"  # by the asymptote, beyond 1e12 cycles
     LATER = "> 1e12"
+    UNKNOWN = "unknown"  # within 1e12 cycles, but the error is as large as the number
     NEVER = "never"  # wear ends below
     LOAD_ENDS = "load ends"
 
@@ -97,11 +99,13 @@ def cycles_until(
     found = engine.cycles_until(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
     cycles, error = found.cycles.copy(), found.error + fewer.error
     reached = [Reached.COUNTED] * len(depths)
-    known = np.isfinite(cycles) & np.isfinite(error)
+    known = np.isfinite(cycles) & (error < NO_DIGIT)
     if not known.all():
+        within = np.isfinite(cycles)
         cycles[~known], error[~known], ways = _beyond(scene, np.array(depths)[~known], rtol)
         for place, way in zip(np.flatnonzero(~known).tolist(), ways, strict=True):
-            reached[place] = way
+            reached[place] = Reached.UNKNOWN if within[place] and way is not Reached.NEVER else way
+        cycles[within & ~known] = error[within & ~known] = np.nan
     ends = np.isfinite(cycles)
     notices = notices_of_wear(scene, cycles[ends].tolist(), np.array(depths)[ends])
     return Life(depths, cycles, error, tuple(reached), notices)

@@ -57,6 +57,17 @@ def test_numbers_that_are_none_are_not_given() -> None:
     assert (life.reached, np.isnan(life.cycles[0])) == ((Reached.LATER,), True)
 
 
+def test_a_number_whose_error_is_larger_than_itself_is_unknown() -> None:
+    """Near a limit that is approached by geometric decay the last digit takes 1e7 times the cycles;
+    it was reported as counted after 564."""
+    changes = {"bearing.roughness_growth": 0.0, "contact.ends_at_3_sigma": True}
+    scene = SECTION4.with_(changes | {"support.stiffness_MPa_per_mm": 1e5})
+    limit = float(solve(scene, 10**12).u_c[0])
+    life = cycles_until(scene, [limit * (1.0 - 1e-9), np.nextafter(limit, 0.0), 2.0 * limit])
+    assert life.reached == (Reached.COUNTED, Reached.UNKNOWN, Reached.NEVER)
+    assert (life.error[0] < 1e-3, np.isnan(life.cycles[1])) == (True, True)
+
+
 def test_a_load_that_ends_is_said_to() -> None:
     blocks = Blocks((Block(Sine(5e-4, 0.06), 10),))
     life = cycles_until(replace(SECTION4, load=blocks), [1e-5, 1.0])

@@ -70,10 +70,13 @@ def life_text(cycles: float, error: float, reached: str) -> str:
 
     >>> life_text(140, 1e-9, "counted"), life_text(1.5e13, 1e-6, "extrapolated")
     ('140', '1.5e+13 (± 2e+07)')
+    >>> life_text(41060, 0.065, "counted")
+    '41060 (± 3e+03)'
     """
-    if reached == "extrapolated":
-        return f"{cycles:.6g} (± {error * cycles:.1g})"
-    return f"{cycles:.0f}" if reached == "counted" else reached
+    if reached not in ("counted", "extrapolated"):
+        return reached
+    number = f"{cycles:.0f}" if reached == "counted" else f"{cycles:.6g}"
+    return number if error * cycles < 1.0 else f"{number} (± {error * cycles:.1g})"
 
 
 def latex(history: History) -> str:
