@@ -24,8 +24,8 @@ Bound = FloatArray | float
 def bracketed(
     function: Function, low: FloatArray, high: FloatArray, steps: int = BISECTIONS
 ) -> tuple[FloatArray, FloatArray]:
-    """Return between which points a function changes its sign, in each of many intervals (k,) at
-    whose ends it differs; it takes points (n, k)."""
+    """Return the points (k,), (k,) between which a function of points (n, k) changes its sign, in
+    each of many intervals (k,) at whose ends the signs differ."""
     sign, row = np.sign(function(low)), np.arange(len(low))
     inner = np.arange(1, SECTIONS)[:, None] / SECTIONS
     for _ in range(steps if len(low) else 0):

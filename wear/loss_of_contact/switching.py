@@ -1,4 +1,4 @@
-"""Cycles with loss of contact, and their pieces, on which contact reaches its edge one way.
+"""Cycles with loss of contact, cut into pieces on which contact reaches its edge in one direction.
 
 Contact ends where h = 3 sigma: the `margin` 3 sigma - h = U_a - B(u) vanishes. On a piece contact
 reaches its edge in one direction only, and the smooth solution that is continued beyond the edge

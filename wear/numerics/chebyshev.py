@@ -20,7 +20,8 @@ def chebyshev_nodes(m: int) -> FloatArray:
 
 
 def chebyshev_values(t: FloatArray, m: int) -> FloatArray:
-    """T_0 ... T_{m-1} at `t` (...), shape (..., m). By recurrence: also right outside [-1, 1]."""
+    """Return T_0 ... T_{m-1} at `t` (...), shape (..., m); by recurrence, which also holds outside
+    [-1, 1]."""
     values = np.empty((m, *t.shape))
     values[0] = 1.0
     values[1:2] = t
@@ -36,10 +37,10 @@ def chebyshev_values(t: FloatArray, m: int) -> FloatArray:
 
 @lru_cache(maxsize=32)
 def chebyshev_analysis(m: int) -> FloatArray:
-    """Matrix (m, m) from values at `chebyshev_nodes(m)` to Chebyshev coefficients.
+    """Return the matrix (m, m) from values at `chebyshev_nodes(m)` to Chebyshev coefficients.
 
     By cosines of exactly reduced angles: a recurrence would lose n^2 roundoffs in T_n near the
-    ends, and so make a tail of a large constant.
+    ends, and a large constant would seem to have a tail.
     """
     n, k = np.arange(m)[:, None], np.arange(m)
     quarters = (n * (2 * k + 1 + 2 * m)) % (4 * m)  # of the angle n (pi + (k + 1/2) pi/m)

@@ -141,8 +141,8 @@ def coefficients(matrix: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def running(values: FloatArray) -> FloatArray:
-    """Integral of `values` (..., q, m), per interval of a mesh, from the first edge to each node,
-    in the same shape."""
+    """Return the integral of `values` (..., q, m), per interval of a mesh, from the first edge to
+    each node, in the same shape."""
     rule = gauss(values.shape[-1])
     within = product(values, rule.integrate.T)
     within[..., 1:, :] += np.cumsum(product(values, rule.weights)[..., :-1], axis=-1)[..., None]
@@ -150,19 +150,19 @@ def running(values: FloatArray) -> FloatArray:
 
 
 def running_integral(values: FloatArray, over: Mesh) -> FloatArray:
-    """Integral of `values` (..., q, m) from the first edge to each node, in the same shape."""
+    """Return the integral of `values` (..., q, m) from the first edge to each node, same shape."""
     return running(values * over.lengths[..., None])
 
 
 def integral(values: FloatArray, over: Mesh) -> FloatArray:
-    """Integral of `values` (..., q, m) over the whole mesh, shape (...)."""
+    """Return the integral of `values` (..., q, m) over the whole mesh, shape (...)."""
     total: FloatArray = np.sum(product(values, over.rule.weights) * over.lengths, axis=-1)
     return total
 
 
 @lru_cache(maxsize=32)
 def between_nodes(m: int, finer: int) -> FloatArray:
-    """Matrix (m, finer) from values at the m nodes of an interval to those at `finer` nodes."""
+    """Return the matrix (m, finer) from values at m nodes of an interval to `finer` nodes of it."""
     basis = np.polynomial.legendre.legvander(2 * gauss(finer).nodes - 1, m - 1)
     matrix: FloatArray = (basis @ gauss(m).coefficients).T
     return matrix

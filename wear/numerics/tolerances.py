@@ -1,4 +1,4 @@
-"""The limits of double precision."""
+"""The limits of double precision: unit of roundoff, smallest numbers."""
 
 import numpy as np
 

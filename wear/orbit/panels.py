@@ -1,4 +1,4 @@
-"""Abel's equation on panels that adapt: solved with one period map, check by a finer one.
+"""Abel's equation on panels that adapt: solved with one period map, checked by a finer one.
 
 The error of the series is largest between the nodes, at the extrema of the last polynomials. The
 error of the mesh of phase changes its sign with the state, so it is estimated at all nodes. Where

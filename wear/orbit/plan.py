@@ -1,4 +1,4 @@
-"""The plan of panels, by a rate that is frozen over each cycle: good enough, and cheap.
+"""The plan of panels, by a rate that is frozen over each cycle: approximate, and cheap.
 
 It determines how far panels must reach, and cuts them until they resolve the density. The residual
 of Abel's equation reveals its errors.

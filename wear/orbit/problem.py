@@ -1,4 +1,4 @@
-"""The request for an orbit: the equation with the scales of its states, cycles; and the cost."""
+"""The request for an orbit: the equation with its scales, and the cycles; and its cost."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The first cycles, integrated one by one: until panels are long against a cycle."""
+"""The first cycles, integrated one by one: until a panel spans many cycles."""
 
 from __future__ import annotations
 
