@@ -1,4 +1,4 @@
-"""Claims of judgements, typed.
+"""The types of claims.
 
 Overview
     A claim is an equality, an inequality, two of them, an inequation, an equivalence, a limit or

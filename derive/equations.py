@@ -8,7 +8,7 @@ Key results
     Equation    statements, their texts and status
     numbered    the equations of results by id
     written     the formulas of one, as an author writes them
-    Status      definition, derived, derived-numerically, corrected, refuted
+    Status      definition, derived or corrected
 """
 
 from __future__ import annotations
@@ -74,20 +74,18 @@ def written(form: str, texts: Mapping[str, str], known: Names = _NONE) -> tuple[
 def stated(identifier: str, known: Names = _NONE) -> tuple[sp.Basic, ...]:
     """Return the shown relations of an equation, evaluated and without abbreviations.
 
-    They serve as the claim of a rule, which is thus typed once.
+    They serve as the claim of a rule, which an author thus writes once.
     """
     shown, where = (written(form, TEXTS[identifier], known) for form in ("shown", "where"))
     return tuple(_in_full(evaluated(relation), where) for relation in shown)
 
 
 class Status(StrEnum):
-    """The machine's verdict on an equation as printed."""
+    """Whether an equation is a definition, derived as printed, or corrected."""
 
     DEFINITION = "definition"
     DERIVED = "derived"
-    NUMERIC = "derived-numerically"
     CORRECTED = "corrected"
-    REFUTED = "refuted"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

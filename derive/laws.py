@@ -41,13 +41,13 @@ odds, share, spread = sp.symbols("odds share spread", positive=True)
 class StableForm:
     """A form of phi(r) and its slope that neither overflows nor loses digits.
 
-    ``names`` are intermediates in order, each an expression in r and earlier ones, in exact
+    ``intermediates`` are named values in order, each an expression in r and earlier ones, in exact
     form except for exponents clamped at EXP_BOUND.  ``far_value`` and ``far_steepness`` are phi and
     phi'/phi in one expression each that does not overflow for large r, where they tend to a limit;
     None where the plain form does not.
     """
 
-    names: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    intermediates: tuple[tuple[sp.Symbol, sp.Expr], ...]
     value: sp.Expr
     slope: sp.Expr
     far_value: sp.Expr | None = None
@@ -91,7 +91,7 @@ TANH = ContactLaw(
     inflection=sp.Integer(2),
     source="Eq. (4)",
     form=StableForm(
-        names=(
+        intermediates=(
             (odds, sp.exp(sp.Min(8 - 4 * r, EXP_BOUND))),
             (share, odds / (1 + odds)),
             (spread, share / (1 + odds)),
@@ -108,7 +108,7 @@ EXPONENTIAL = ContactLaw(
     phi=sp.exp(-r),
     inflection=sp.S.NegativeInfinity,
     source="Greenwood and Williamson (1966), exponential distribution of heights",
-    form=StableForm(names=((share, sp.exp(-r)),), value=share, slope=-share),
+    form=StableForm(intermediates=((share, sp.exp(-r)),), value=share, slope=-share),
 )
 
 GENERAL = ContactLaw(

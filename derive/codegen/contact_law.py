@@ -46,16 +46,16 @@ def faults_of(law: ContactLaw) -> tuple[str, ...]:
 def _exact_forms(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     """Return the computed forms of value and slope, in r alone and without bounded exponents."""
     value, slope = law.stable.value, law.stable.slope
-    for name, form in reversed(law.stable.names):
+    for name, form in reversed(law.stable.intermediates):
         value, slope = (e.xreplace({name: unclamped(form)}) for e in (value, slope))
     return value, slope
 
 
 def formulas(law: ContactLaw) -> tuple[Formula, Formula]:
     """Return p/p_max and phi'/phi at h/sigma = r."""
-    row, exact = law.stable, sp.diff(law.phi, r) / law.phi
-    share = _exact_forms(law)[0] if row.far_value is None else row.far_value
-    slope = sp.cancel(exact) if row.far_steepness is None else row.far_steepness
+    form, exact = law.stable, sp.diff(law.phi, r) / law.phi
+    share = _exact_forms(law)[0] if form.far_value is None else form.far_value
+    slope = sp.cancel(exact) if form.far_steepness is None else form.far_steepness
     slope = sp.powsimp(slope, deep=True)  # one exponential, not a quotient that overflows
     value, relative = "share p/p_max of the largest pressure", "relative slope phi'/phi"
     return (

@@ -71,7 +71,7 @@ def source(program: Program, target: str) -> str:
 
 def definitions(program: Program) -> str:
     """Return the JavaScript of a program as the body of a function that returns its functions."""
-    return rendered("javascript", **_context(program, TARGETS["javascript"]) | {"within": True})
+    return rendered("javascript", **_context(program, TARGETS["javascript"]) | {"embedded": True})
 
 
 def rendered(template: str, **context: Any) -> str:
@@ -106,7 +106,7 @@ def _context(program: Program, target: Target) -> dict[str, Any]:
         "variant": variant,
         "title": title_of(variant) if program.fields else margin_title(variant.pin),
         "header": _header(program, target),
-        "spelt": target.rename,
+        "rename": target.rename,
         "parameters": [parameter.name for parameter in program.parameters],
         "constants": [name.name for name, _ in program.constants],
         "computed": _computed(program, target),
@@ -117,7 +117,7 @@ def _context(program: Program, target: Target) -> dict[str, Any]:
         "increment": increment(variant),
         "contact": body(contact(variant), program, target),
         "emit": partial(emit, target=target),
-        "within": False,
+        "embedded": False,
     }
 
 

@@ -73,7 +73,7 @@ def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
         if equations:
             first, *others = equations
             factor = term(_factor(step, first.relation))
-            yield f"{step.stated(others)}multiple ({step.now(first)}) ({factor})"
+            yield f"{step.stated(others)}multiple ({step.at_time(first)}) ({factor})"
         end = "logarithm" if isinstance(goal.lhs, sp.log) else "identity"
         yield f"{step.stated(steps)}insert; {end}"
 

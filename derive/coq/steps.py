@@ -95,13 +95,13 @@ class Step:
             (other.name, *(self.labels[p.proposition] for p in other.statement.premises))
         )
 
-    def now(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
+    def at_time(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
         """Return the proof term of another step's claim at a time."""
         return f"{self.cited(other)} {time} {proof}" if other.timed else self.cited(other)
 
     def stated(self, steps: Iterable[Step]) -> str:
         """Return the tactic that states the claims of other steps, equations to be inserted."""
-        return "".join(f"given ({self.now(other)}); " for other in steps)
+        return "".join(f"given ({self.at_time(other)}); " for other in steps)
 
     def signs(self, time: str = "t", proof: str = "Ht") -> list[str]:
         """Return the tactics that state the known signs at a time.
@@ -112,12 +112,12 @@ class Step:
         rests_on = [s for s in (*self.hypotheses, *self.ancestors) if not s.relation.has(sp.Limit)]
         signs = {s.relation.args: s for s in self.hypotheses if isinstance(s.relation, sp.Gt)}
         for other in rests_on:
-            known = self.now(other, time, proof)
+            known = self.at_time(other, time, proof)
             if isinstance(other.relation, (Inequality, sp.Ne)):
                 lines.append(f"pose proof ({known}).")
             elif other.equates and (other.relation.lhs, 0) in signs:
                 sign = signs[other.relation.lhs, sp.S.Zero]
-                lines.append(f"pose proof (sign_of ({self.now(sign, time, proof)}) ({known})).")
+                lines.append(f"pose proof (sign_of ({self.at_time(sign, time, proof)}) ({known})).")
         return list(dict.fromkeys(lines))
 
     @cached_property

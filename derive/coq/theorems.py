@@ -42,7 +42,7 @@ def _separates(step: Step) -> Values:
     first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
     rate = next(r for r in step.ancestors if r.relation.args[:1] == (sp.Derivative(y, t),))
     rates = dict.fromkeys((rate, step.frontier[0]))
-    return {"pace": step.relation.lhs / t, "integral": integral, "rates": rates, "first": first}
+    return {"speed": step.relation.lhs / t, "integral": integral, "rates": rates, "first": first}
 
 
 def _by_parts(step: Step) -> Values:

@@ -1,9 +1,9 @@
-"""Draws: random models of relations, built from test functions; the seed determines them.
+"""Draws: random models of relations, built from random functions; the seed determines them.
 
 Overview
     Each equation is solved for one of its unknowns, in which it must be linear: a datum, a field,
     a rate or an initial value.  Undetermined quantities are drawn: data from a short list of
-    degenerate, ordinary and extreme values, fields from families of test functions (constants,
+    degenerate, ordinary and extreme values, fields from families of functions (constants,
     ramps, roots, exponentials, logarithms, sines, squares).  An inequality is imposed by a random
     difference of its sides, zero included, a limit by a remainder that vanishes or grows.  The
     same seed gives the same quantity the same value in every judgement.
@@ -177,7 +177,7 @@ def _fitting(
     relations: list[sp.Basic],
     values: dict[sp.Expr, sp.Expr],
 ) -> sp.Expr:
-    """Draw a number or a test function that satisfies the relations with known quantities.
+    """Draw a number or a random function that satisfies the relations with known quantities.
 
     It is the last one tried if none of them does.
     """
@@ -362,8 +362,8 @@ def slides_fast(seed: int) -> bool:
 
 
 def _draw(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Draw a number or a test function of time, ``outside`` of its domain or inside."""
-    return (test_function if quantity.args else _value)(quantity, seed, outside)
+    """Draw a number or a random function of time, ``outside`` of its domain or inside."""
+    return (random_function if quantity.args else _value)(quantity, seed, outside)
 
 
 def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
@@ -382,8 +382,8 @@ def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
     return -size if chance.random() < 0.3 else size
 
 
-def test_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Return a test function of time, ``outside`` of the domain of a quantity or inside."""
+def random_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
+    """Return a random function of time, ``outside`` of the domain of a quantity or inside."""
     chance = random.Random(f"{seed} {_name(varying)}")
     s = t / T
     size = sp.Rational(chance.choice(("1", "1", "1", "2", "1/2", "-1", "1/4")))

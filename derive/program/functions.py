@@ -53,9 +53,9 @@ value_of_margin, slope_of_margin = number("margin"), number("margin_slope")
 
 def law(variant: Variant) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
     """Return the law's intermediates, value and slope at ``ratio``."""
-    row = variant.law.stable
-    names = tuple((name, expr.subs(r, ratio)) for name, expr in row.names)
-    return names, row.value.subs(r, ratio), row.slope.subs(r, ratio)
+    form = variant.law.stable
+    intermediates = tuple((name, expr.subs(r, ratio)) for name, expr in form.intermediates)
+    return intermediates, form.value.subs(r, ratio), form.slope.subs(r, ratio)
 
 
 def to_ratio(relations: Relations, deflected: bool) -> tuple[Assignment, ...]:

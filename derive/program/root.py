@@ -91,9 +91,9 @@ def tail(of: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     >>> tail(TANH)
     (exp(8), 4)
     """
-    row = of.stable
-    value = of.phi if row.far_value is None else row.far_value
-    steepness = sp.diff(of.phi, r) / of.phi if row.far_steepness is None else row.far_steepness
+    form = of.stable
+    value = of.phi if form.far_value is None else form.far_value
+    steepness = sp.diff(of.phi, r) / of.phi if form.far_steepness is None else form.far_steepness
     m = -sp.limit(steepness.rewrite(sp.exp), r, sp.oo)
     if not (m.is_finite and m.is_positive):
         return sp.Integer(0), sp.Integer(0)

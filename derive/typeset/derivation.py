@@ -21,6 +21,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Predicate
 from ..hypotheses import Kind
 from ..kernel import Judgement
+from ..rules.assumption import Assume
 from . import formula
 from .display import inline, latex
 from .macros import macro_name, macros, rendered
@@ -29,6 +30,16 @@ from .reading import in_latex
 
 if TYPE_CHECKING:
     from ..equations import Equation
+
+_SHORT = 60
+"""Greatest number of characters of a formula in a sentence."""
+_LONG = 18.0
+"""Width in em above which a formula does not fit into a line on a phone."""
+_FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
+"""LaTeX and references in a sentence, which are not read again."""
+_COLLECTIONS = ("problem-i", "problem-ii")
+"""Systems of relations that are derived elsewhere: no step refers to a line of theirs."""
+_REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 
 
 class StepText(NamedTuple):
@@ -150,18 +161,7 @@ def _assumed(hypothesis: Judgement) -> str:
 
 def is_hypothesis(statement: Judgement) -> bool:
     """Return whether a statement is taken from the note, or assumed."""
-    return type(statement.rule).__name__ == "Assume"
-
-
-#: Greatest number of characters of a formula in a sentence.
-_SHORT = 60
-_LONG = 18.0
-"""Width in em above which a formula does not fit into a line on a phone."""
-_FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
-"""LaTeX and references in a sentence, which are not read again."""
-_COLLECTIONS = ("problem-i", "problem-ii")
-"""Systems of relations that are derived elsewhere: no step refers to a line of theirs."""
-_REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
+    return isinstance(statement.rule, Assume)
 
 
 def prose(equations: Sequence[Equation], width: float) -> str:

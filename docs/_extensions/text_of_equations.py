@@ -15,9 +15,7 @@ from derive.typeset.macros import macro_name, meaning
 MEANING = {
     Status.DEFINITION: "taken as the model, or a name given to something",
     Status.DERIVED: "every step from the governing equations is proved",
-    Status.NUMERIC: "some step is only sampled",
     Status.CORRECTED: "does not hold as printed; the form that does is derived and shown",
-    Status.REFUTED: "does not hold",
 }
 
 
