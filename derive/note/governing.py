@@ -29,7 +29,7 @@ from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..rules.algebra import Insert, Solve, restrict, substitute
 from ..rules.assumption import assume, defined
-from ..rules.calculus import SPRINGS, integrate
+from ..rules.calculus import SPRINGS, differentiate, integrate
 from ..symbols import symbols
 from . import model
 
@@ -129,14 +129,18 @@ class NoteModel:
 
     @cached_property
     def wear_laws(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
-        """Eq. (7f): (5) if wear of a solid changes only its own roughness."""
+        """Eq. (7f): (5) if wear of a solid changes only its own roughness.
+
+        A pin that does not wear changes none.
+        """
         u_a_rate, sigma_a_rate, u_c_rate, sigma_c_rate = self.archard
         (no_ac, no_ca), (own_a, own_c) = map(assume, UNCOUPLED), OWN
+        no_effect_of_pin = no_ca if self.pin.wears else differentiate(assume(UNWORN_PIN))
         return (
             u_a_rate,
             substitute(sigma_a_rate, no_ac, own_a),
             u_c_rate,
-            substitute(sigma_c_rate, no_ca, own_c),
+            substitute(sigma_c_rate, no_effect_of_pin, own_c),
         )
 
     @cached_property

@@ -85,7 +85,6 @@ def test_every_equation_of_section_4_says_what_it_needs() -> None:
         assert said == {
             "smooth pin",
             "unworn pin",
-            "no cross coupling of roughness",
             "rigid support",
             "no loss of contact",
             "the bearing roughens as it wears",
