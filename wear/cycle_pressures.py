@@ -22,8 +22,8 @@ from wear.inside import Inside, fields_inside
 from wear.load import HistoryLoad
 from wear.load.spans import span
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray, Mesh, mesh
-from wear.numerics.tolerances import ROUNDOFF
 from wear.scene import Scene
 from wear.scene.notices import CONTACT_REACH
 

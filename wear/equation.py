@@ -17,8 +17,8 @@ from wear.binding import bind, bind_many
 from wear.load import Load, sampled
 from wear.model import Model
 from wear.numerics.collocation import Tangent
+from wear.numerics.floating_point import ROUNDOFF, SMALLEST, TINY
 from wear.numerics.gauss import FloatArray, IntArray
-from wear.numerics.tolerances import ROUNDOFF, SMALLEST, TINY
 from wear.scene import Scene
 
 DEEPEST = 1e12  # roughnesses of wear: more than in any count

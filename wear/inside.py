@@ -11,9 +11,9 @@ from wear.faults import AccuracyError, UsageError
 from wear.load import HistoryLoad, Loading
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Fields, Model
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
-from wear.numerics.tolerances import TINY
 from wear.orbit.dense_output import DenseOutput, PhaseIncrements, dense_output
 from wear.orbit.iterates import Iterates
 from wear.quantities import columns_of

@@ -3,7 +3,7 @@
 Overview
     In the steady regime ``u_c(N T) = R N + A ln N + B + o(1)``.  R and A follow from the data; B
     depends on the whole history.  All three follow from the solution of Abel's equation at
-    infinity (`wear.orbit.infinity`); the difference of that A to the derived one is the basis of
+    infinity (`wear.orbit.steady_state`); its difference to the derived A is the basis of
     the error estimate of B.
 Key results
     offset        B of a scene, with an error estimate
@@ -19,8 +19,8 @@ from wear.binding import bind
 from wear.cycles import count_cycles
 from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.numerics.rows import take
-from wear.orbit.infinity import SteadyState, steady_state
 from wear.orbit.iterates import Iterates, cells
+from wear.orbit.steady_state import SteadyState, steady_state
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene
 

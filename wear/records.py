@@ -13,9 +13,9 @@ import numpy as np
 from wear.equation import WearEquation, roundoff
 from wear.load import HistoryLoad
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray, mesh
 from wear.numerics.initial_value import Rules, StoppedError, integrate
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome

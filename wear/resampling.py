@@ -18,8 +18,8 @@ from wear.binding import bind
 from wear.equation import WearEquation, growth
 from wear.load import ForceTable, Table
 from wear.model import Model
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray, Mesh, mesh
-from wear.numerics.tolerances import TINY
 from wear.quantities import SMALLEST
 from wear.scene import Scene
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from wear.binding import bind
-from wear.direct.cutoff import pressure_share, roundoff
+from wear.direct.loss_of_contact import pressure_share, roundoff
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span

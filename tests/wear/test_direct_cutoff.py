@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from wear import cycles as count
 from wear import direct
 from wear.binding import bind
-from wear.direct.cutoff import Mode, first_mode, is_arrested, pieces, pressure_share
+from wear.direct.loss_of_contact import Mode, first_mode, is_arrested, pieces, pressure_share
 from wear.direct.problem import scaled_ode
 from wear.load import Constant, Harmonics, Sine, Table
 from wear.scene import Scene

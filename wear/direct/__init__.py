@@ -7,7 +7,7 @@ refined until the estimate meets the request.
 
 Other errors are excluded by construction: steps cannot jump over a contact pulse
 (`wear.direct.problem.widest_step`), kinks of the load and of the loss of contact are ends of steps
-(`wear.direct.cutoff`), and nothing is integrated after the arrest of wear.
+(`wear.direct.loss_of_contact`), and nothing is integrated after the arrest of wear.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.direct import cutoff
-from wear.direct.cutoff import Mode
+from wear.direct import loss_of_contact
+from wear.direct.loss_of_contact import Mode
 from wear.direct.problem import EPS, Setting, WearODE, scaled_ode, widest_step
 from wear.direct.step import (
     FINEST_TOLERANCE,
@@ -99,7 +99,9 @@ def integrate(
     """
     marks = _marks(cycles)
     meter = Meter(deadline, Pace(progress))
-    uncertainty = cutoff.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
+    uncertainty = (
+        loss_of_contact.roundoff(model, 0.0, load.maximum) if model.ends_at_3_sigma else 0.0
+    )
     runs: list[Integration] = []
     stopped, interrupted = None, False
     try:
@@ -158,7 +160,7 @@ def _march(
     acting = span(load, 0)
     ode = scaled_ode(model, acting.load)
     state, steps_before = State(0, 0.0, _mode(ode, 0.0), None, 0), meter.steps
-    if model.ends_at_3_sigma and cutoff.is_arrested(ode, 0.0, state.mode, load.maximum):
+    if model.ends_at_3_sigma and loss_of_contact.is_arrested(ode, 0.0, state.mode, load.maximum):
         state = state._replace(arrested_in=0)
     for mark in marks:
         while state.cycle < mark and state.arrested_in is None:
@@ -176,7 +178,7 @@ def _march(
 
 
 def _mode(ode: WearODE, u: float) -> Mode:
-    return cutoff.first_mode(ode, u) if ode.model.ends_at_3_sigma else Mode.CLOSED
+    return loss_of_contact.first_mode(ode, u) if ode.model.ends_at_3_sigma else Mode.CLOSED
 
 
 def _smooth_cycles(ode: WearODE, state: State, to: int, setting: Setting, meter: Meter) -> State:
@@ -201,14 +203,14 @@ def _cycles_with_cutoff(
     ode: WearODE, state: State, to: int, setting: Setting, meter: Meter, maximum: float
 ) -> State:
     """Integrate up to cycle `to`, or to the end of the cycle in which wear stops."""
-    pieces = cutoff.pieces(ode.load)
+    pieces = loss_of_contact.pieces(ode.load)
     while state.cycle < to and state.arrested_in is None:
-        u, mode = cutoff.cycle(ode, pieces, state.u, state.mode, setting, meter)
+        u, mode = loss_of_contact.cycle(ode, pieces, state.u, state.mode, setting, meter)
         meter.cycles += 1
         cycle = state.cycle + 1
         state = state._replace(cycle=cycle, u=u, mode=mode)
-        if cutoff.is_arrested(ode, u, mode, maximum):
-            fades = cutoff.fades(ode, pieces, u, maximum)
+        if loss_of_contact.is_arrested(ode, u, mode, maximum):
+            fades = loss_of_contact.fades(ode, pieces, u, maximum)
             state = state._replace(arrested_in=cycle, fades=fades)
     return state
 

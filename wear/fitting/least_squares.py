@@ -12,8 +12,8 @@ from wear.fitting.model import MISSING_RESIDUAL, FitModel
 from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import TINY
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
 SEARCH_RANGE = 20.0  # e-folds, or multiples of a parameter's size, around the scene

@@ -15,8 +15,8 @@ import numpy as np
 
 from wear.fitting.estimate import PARAMETER_RANGE, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray, IntArray
-from wear.numerics.tolerances import TINY
 
 LEVELS = (0.5, 1.0)  # of the deviance's root, in quantiles, at which a profile is drawn
 END_TOLERANCE = 0.01  # of the quantile: accuracy of an end

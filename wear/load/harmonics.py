@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from wear.load.periodic import Smooth, centred, within_cycle
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF
 from wear.validation import Numbers, Positive, Real, table
 
 MOST_HARMONICS = 100

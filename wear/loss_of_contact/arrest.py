@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.loss_of_contact.increments import TO_ROUNDOFF, Coordinate, IncrementSeries
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels
 from wear.orbit.iterates import Cells, Iterates
 

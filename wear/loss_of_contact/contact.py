@@ -18,8 +18,8 @@ import numpy as np
 
 from wear.loss_of_contact.switching import Cycles, roughness
 from wear.numerics.collocation import NOISE
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
-from wear.numerics.tolerances import ROUNDOFF, TINY
 
 MOST_ITERATIONS = 12  # of Newton
 PATIENCE = 4  # iterations that may diverge at first

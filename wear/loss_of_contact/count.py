@@ -48,7 +48,7 @@ from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.stretch import AbelSolution, Stretch, cycles_to_end, stretches
 from wear.loss_of_contact.switching import Edge
 from wear.model import Model
-from wear.numerics.tolerances import ROUNDOFF, TINY
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost

@@ -24,8 +24,8 @@ from wear.loss_of_contact.edge import turning_points
 from wear.loss_of_contact.increments import Coordinate, IncrementSeries, increments, located
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.panels import CHECKS, near_checks
 from wear.parameters import Gradient, ParametrisedEquation
 

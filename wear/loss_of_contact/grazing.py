@@ -11,7 +11,7 @@ from wear.loss_of_contact.period_map import TOUCH, margin_roundoff
 from wear.loss_of_contact.roots import bracketed
 from wear.loss_of_contact.switching import NEARLY, Edge
 from wear.model import Model
-from wear.numerics.tolerances import (
+from wear.numerics.floating_point import (
     ROUNDOFF,
     TINY,
 )

@@ -19,9 +19,9 @@ import numpy as np
 
 from wear.loss_of_contact.queries import CYCLES, Coroutine, Query
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, product
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.abel import Frame
 from wear.orbit.panels import CHECKS, SPLIT, near_checks

@@ -13,9 +13,9 @@ from wear.loss_of_contact.plan import CountProblem
 from wear.loss_of_contact.roundoff import Roundoff, roundoff
 from wear.loss_of_contact.stretch import AbelSolution, alike
 from wear.loss_of_contact.switching import Cycles
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import IntArray
 from wear.numerics.rows import stacked
-from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates, cells
 from wear.orbit.jobs import count_error
 from wear.orbit.transient import SAFETY

@@ -36,8 +36,8 @@ from wear.loss_of_contact.contact import (
 from wear.loss_of_contact.roots import displacement_at, wear_at
 from wear.loss_of_contact.switching import Cycles, Edge, Piece, cycles_of, phase_of
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
-from wear.numerics.tolerances import ROUNDOFF
 
 TOUCH = 16.0  # roundoffs of the margin by which contact is told
 SOON = 1e-6  # of a piece: after that the load goes where it goes

@@ -19,8 +19,8 @@ from wear.loss_of_contact.increments import Coordinate, SeriesDomain
 from wear.loss_of_contact.queries import FROZEN_CYCLES, Coroutine, Query, without_feedback
 from wear.loss_of_contact.switching import Edge
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit.period_map import Settings, settings
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle

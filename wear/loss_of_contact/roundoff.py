@@ -10,8 +10,8 @@ import numpy as np
 from wear.equation import HALF_DIFFERENCE
 from wear.equation import roundoff as rate_roundoff
 from wear.loss_of_contact.switching import Cycles
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF, TINY
 
 
 class Roundoff(NamedTuple):

@@ -1,4 +1,4 @@
-"""Single integrated cycles, and linear interpolation of cycles from wears next to them."""
+"""Single integrated cycles, and extrapolation to the wears next to them."""
 
 from __future__ import annotations
 

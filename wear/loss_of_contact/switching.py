@@ -15,8 +15,8 @@ import numpy as np
 
 from wear.load import Constant, Harmonics, Load, Sine, Table, Waves, waves
 from wear.model import Model, stacked
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import ROUNDOFF
 
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a part of the cycle: the distance of a sample from its ends

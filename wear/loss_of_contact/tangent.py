@@ -21,9 +21,9 @@ from wear.loss_of_contact.increments import IncrementSeries, step
 from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Edge
 from wear.numerics.chebyshev import chebyshev_nodes
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS

@@ -20,6 +20,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import (
     BoolArray,
     FloatArray,
@@ -32,7 +33,6 @@ from wear.numerics.gauss import (
     running,
     running_integral,
 )
-from wear.numerics.tolerances import ROUNDOFF, TINY
 
 NOISE = 8 * ROUNDOFF  # the change from one iteration to the next by rounding alone
 GRAIN = 4 * ROUNDOFF  # of the state: the slope over a smaller step is all rounding error

@@ -13,10 +13,10 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import BoolArray, FloatArray, Mesh, coefficients, integral, product
 from wear.numerics.initial_value import SAFETY, StoppedError
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates, cell_of
 from wear.orbit.panels import CHECKS, SPLIT

@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.collocation import Tangent
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import Rows
 from wear.orbit.problem import Cost
 from wear.orbit.segments import orbit

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, coefficients, gauss, product
 from wear.numerics.rows import take
-from wear.numerics.tolerances import TINY
 from wear.orbit.abel import Panels, level_and_shape
 from wear.orbit.panels import PanelCycles
 

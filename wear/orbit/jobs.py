@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit import abel
 from wear.orbit.iterates import Cells, Iterates, cells
 from wear.orbit.panels import Layout, PanelSolution, adapt

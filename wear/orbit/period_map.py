@@ -29,10 +29,10 @@ from wear.numerics.collocation import (
     truncation_error,
     unresolved,
 )
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, Mesh, integral, mesh, product
 from wear.numerics.initial_value import SAFETY, Endpoints, Rules, StoppedError, integrate
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import ROUNDOFF, TINY
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase have no valid error estimate
 LOOSEST = 1e-4  # relative error: a looser count saves nothing

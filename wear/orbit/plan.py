@@ -12,9 +12,9 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes
 from wear.numerics.collocation import unresolved
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral, product
 from wear.numerics.rows import stacked, take
-from wear.numerics.tolerances import TINY
 from wear.orbit import abel
 from wear.orbit.panels import FASTER, SPLIT, Layout
 from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period_map

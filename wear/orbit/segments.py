@@ -16,8 +16,8 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.numerics.tolerances import TINY
 from wear.orbit.jobs import Jobs
 from wear.orbit.problem import Cost, Problem, Request
 

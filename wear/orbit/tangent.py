@@ -23,10 +23,10 @@ import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_nodes, chebyshev_values
 from wear.numerics.collocation import CycleSolution
+from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_integral
 from wear.numerics.initial_value import StoppedError
 from wear.numerics.rows import take
-from wear.numerics.tolerances import ROUNDOFF, TINY
 from wear.orbit import abel
 from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
 from wear.orbit.panels import CHECKS, PanelCycles, near_checks

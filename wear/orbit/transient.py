@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import take
-from wear.numerics.tolerances import ROUNDOFF
 from wear.orbit.period_map import PeriodMap, Settings
 from wear.orbit.problem import Cost
 

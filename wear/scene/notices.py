@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from wear import own_laws
 from wear.load import Blocks, ForceTable, Table
 from wear.load.spans import span
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray
-from wear.numerics.tolerances import TINY
 from wear.scene.text import PARTS
 
 if TYPE_CHECKING:

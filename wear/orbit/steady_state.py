@@ -43,9 +43,9 @@ def steady_state(panel: Panels, cycles: float) -> SteadyState:
     rule, edges = gauss(NODES), np.arange(INTERVALS) / INTERVALS
     x = (edges[:, None] + rule.nodes / INTERVALS).ravel()
     secant = per_x * chebyshev.chebval(per_x * x - 1, first)
-    bend = per_x**2 * chebyshev.chebval(per_x * x - 1, second)
+    curvature = per_x**2 * chebyshev.chebval(per_x * x - 1, second)
     # (exp(S(x) - S(1)) - 1 - S'(1) (x - 1))/(1 - x)^2
-    rest = bend + secant**2 * _second_remainder(secant * (x - 1))
+    rest = curvature + secant**2 * _second_remainder(secant * (x - 1))
     integral = float(np.sum(rest.reshape(INTERVALS, -1) @ rule.weights)) / INTERVALS
     rate, drift = float(np.exp(-level)), length * slope
     offset = start - rate * cycles + drift * (-level - math.log(length)) - length * integral
