@@ -86,8 +86,7 @@ def count_cycles(
     one, equation = np.ones(1), WearEquation(model, (load,))
     found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = found.segments[-1]
-    known = np.isfinite(found.after(np.full((1, 1), cycles))[1])
-    if not (found.at_rest[0] and known.all()):
+    if not found.at_rest[0] or np.isinf(found.after(np.full((1, 1), cycles))[1][0, 0]):
         return SceneOrbit(found, None)
     assert isinstance(last.iterates, Iterates)
     return SceneOrbit(found, End(int(last.begins[0]) + last.iterates.first_idle_cycle, 0, IDLES))
