@@ -26,7 +26,7 @@ from wear.loss_of_contact.switching import (
     PIECE_SAMPLES,
     Cycles,
     Edge,
-    Levels,
+    ModelLevels,
     Piece,
     cycles_of,
     displacements,
@@ -105,7 +105,7 @@ def edges_of_contact(models: Sequence[Model], loads: Sequence[Load]) -> list[Edg
 
 def _edge(
     load: Load,
-    levels: Levels,
+    levels: ModelLevels,
     turns: FloatArray,
     bends: FloatArray,
     cuts: FloatArray,
@@ -170,7 +170,7 @@ def _closings(legs: _Legs, both: bool) -> tuple[FloatArray, IntArray]:
     return found, some.scene
 
 
-def _levels(models: Sequence[Model]) -> list[Levels]:
+def _levels(models: Sequence[Model]) -> list[ModelLevels]:
     """Return the levels of models of one variant. The turning wear is zero if the displacement that
     just makes contact falls with wear from the start, infinite if it always rises."""
     model, none = stacked(models), np.zeros(len(models))
@@ -184,4 +184,4 @@ def _levels(models: Sequence[Model]) -> list[Levels]:
     turns = np.isfinite(turning_wear)
     highest = np.where(turns, displacement_at(model, np.where(turns, turning_wear, 0.0)), np.inf)
     numbers = np.array([turning_wear, highest, model.held_margin + none])
-    return [Levels(*each) for each in numbers.T.tolist()]
+    return [ModelLevels(*each) for each in numbers.T.tolist()]

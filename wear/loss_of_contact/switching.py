@@ -59,7 +59,7 @@ class Piece(NamedTuple):
         return np.asarray(np.maximum(self.heights[0], self.heights[-1]))
 
 
-class Levels(NamedTuple):
+class ModelLevels(NamedTuple):
     """Levels of a model: the margin falls with wear up to the wear `turning_wear` (mm), and rises
     beyond; under displacements above `highest` (mm) contact has no edge. A compliant support holds
     the contact at its edge until the margin is as large as `held` (mm), zero for a rigid one."""
@@ -75,7 +75,7 @@ class Edge(NamedTuple):
     so many pieces `before` (k,), the period map has a kink."""
 
     pieces: Piece
-    levels: Levels
+    levels: ModelLevels
     grazing: FloatArray
     before: IntArray
 
@@ -146,7 +146,9 @@ class Lines(NamedTuple):
         return np.asarray(self.rise + 0.0 * phase)
 
 
-def cycles_of(models: Sequence[Model], loads: Sequence[Load], levels: Sequence[Levels]) -> Cycles:
+def cycles_of(
+    models: Sequence[Model], loads: Sequence[Load], levels: Sequence[ModelLevels]
+) -> Cycles:
     """Return a cycle of each of some scenes of one variant."""
     numbers = [
         (load.period, load.maximum, max(abs(load.minimum), abs(load.maximum)), *level)
