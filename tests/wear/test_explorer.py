@@ -2,6 +2,7 @@
 
 import json
 import re
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +10,13 @@ import pytest
 
 import wear
 from derive.codegen.sources import definitions
+from derive.variant import VARIANTS
+from derive.variant_equations import equations_of
 from tests.derive.exact import made, variant_of
 from tests.programs import run
 from wear.cli import main
 from wear.report import explorer, explorer_derived
+from wear.report.equations import capital
 from wear.scene import builtin_names, load_scene, parse_scene
 
 READY = "document.documentElement?.dataset.ready >= 1"
@@ -570,3 +574,19 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
     assert text(window, "description").endswith("is that of the merged rows.")
     assert window.run("chosen.load.phase.length") < 300
     assert text(window, "value-contact-now") == "1"
+
+
+def test_every_variant_is_shown_its_own_equations_and_no_others():
+    rows = list(explorer_derived._model())
+    for variant, opening in product(VARIANTS, (False, True)):
+        chosen = {
+            "law": variant.law.name, "pin": variant.pin.value, "compliant": variant.compliant,
+            "cutoff": variant.ends_at_3_sigma, "opening": opening,
+        }  # fmt: skip
+        shown = {
+            (title, latex)
+            for title, latex, holds in rows
+            if all(chosen[name] in values for name, values in holds.items())
+        }
+        own = equations_of(variant, opening=opening)
+        assert shown == {(capital(each.title), each.latex) for each in own}
