@@ -36,7 +36,7 @@ from .language import defined_by, fault, meant_by, names, typeset_name
 from .note.model import CLOSURE, WEARING, subject
 from .reals import contradictory
 from .symbols import CLOCKS, QUANTITIES, symbol, t
-from .time_limit import time_limit
+from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
 _TOKEN = object()
@@ -203,8 +203,14 @@ def _content(node: object) -> object:
 
 
 def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
-    with time_limit(LIMIT_S, f"{type(rule).__name__}: {rule.words}"):
-        made = rule.conclude(*premises)
+    kind = type(rule).__name__
+    try:
+        with time_limit(LIMIT_S, f"{kind}: {rule.words}"):
+            made = rule.conclude(*premises)
+    except (RuleError, TimeLimitError):
+        raise
+    except Exception as odd:
+        raise RuleError(f"{kind} is about premises and choices of another form: {odd}") from odd
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
@@ -292,7 +298,7 @@ def replay_fault(judgement: Judgement) -> str | None:
         chain(judgement)
         _require_language(judgement.claim.relation, *judgement.hypotheses)
         hypotheses, claim = _apply(judgement.rule, judgement.parents)
-    except (RuleError, ValueError, TypeError, AttributeError, KeyError) as refusal:
+    except (ValueError, TypeError, AttributeError) as refusal:
         return str(refusal) or type(refusal).__name__
     if _content(claim) != _content(judgement.claim):
         return f"the rule gives {claim.relation}"

@@ -13,7 +13,10 @@ from derive.hypotheses import ROUGHENING, Hypothesis
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replay_fault
 from derive.rules.algebra import Discharge, Identity, substitute
 from derive.rules.assumption import Assume, assume
+from derive.rules.calculus import rigid
+from derive.rules.data import OneSign
 from derive.rules.inequalities import Arithmetic, Monotone
+from derive.rules.limits import Passes
 from derive.symbols import symbols
 from derive.time_limit import TimeLimitError, time_limit
 from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, supposed
@@ -115,6 +118,10 @@ FORGERIES: tuple[tuple[Callable[[], object], str], ...] = (
     (lambda: assume(supposed(equal(f_c, 5), "model")), "nor a hypothesis"),  # type: ignore[arg-type]
     (lambda: Discharge(Same("any", sp.Gt(q, 0)))(CUBE), "nor a hypothesis"),
     (lambda: Monotone(Turning())(ge(h, h_0)), "nor a hypothesis"),
+    (lambda: rigid(ge(h, h_0), ge(h, h_0)), "another form: too many"),
+    (lambda: Passes(sp.Eq(h_0, L))(), "another form: tuple index"),
+    (lambda: Monotone(sp.Lambda((), h_0))(ge(h, h_0)), "another form"),
+    (lambda: OneSign(h * L)(eq(h, h_0)), "another form"),
 )
 
 

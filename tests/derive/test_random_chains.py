@@ -20,6 +20,7 @@ from derive.rules import algebra, calculus, data, drift, growth, inequalities, l
 from derive.rules.assumption import Assume, assume
 from derive.rules.limits import forever, later
 from derive.symbols import initial, rate, symbols, t
+from derive.time_limit import TimeLimitError
 
 u_c, u_a, U_a, h, G = symbols("u_c u_a U_a h G")
 h_0, f_c, C, T, q, U, b_0, theta, u_cum, M = symbols("h_0 f_c C T q U b_0 theta u_cum M")
@@ -140,7 +141,7 @@ def concluded(chain: Chain) -> list[Judgement]:
 def applied(rule: Rule, *premises: Judgement) -> Judgement | None:
     try:
         return infer(rule, *premises)
-    except (RuleError, ValueError, TypeError, AttributeError, IndexError):
+    except (RuleError, TimeLimitError):
         return None
 
 
