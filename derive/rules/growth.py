@@ -39,7 +39,10 @@ from .reading import (
 
 @dataclass(frozen=True)
 class Diverges(Rule):
-    """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a."""
+    """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a.
+
+    u is a field, or time itself.
+    """
 
     expr: sp.Expr
     words = "By {0}, the wear grows without bound, and with it {expr}."
@@ -50,7 +53,7 @@ class Diverges(Rule):
         u, bound = growth.greater, growth.lesser
         speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
-        if fields(u) != {u} or not all(map(constant, steady)):
+        if fields(u) | {t} != {u, t} or not all(map(constant, steady)):
             raise RuleError(f"missing premise: {self.expr} is linear in a growing field")
         require_defined(self.expr, *premises)
         for positive in (speed, slope):

@@ -4,6 +4,7 @@ Key results
     forever, later   the limit for t -> oo; an expression one period later
     one_period_later a claim about every time, one period later
     vanishes         |e| <= B/s and s -> oo give e -> 0
+    ordered          a > b at every time and a - b -> d give d >= 0
     Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
 References
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Asymptotic, Equality, Limit
+from ..claims import Asymptotic, Equality, Inequality, Limit
 from ..hypotheses import LOAD
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
@@ -33,6 +34,7 @@ from .reading import (
     field_of_rate,
     fields,
     growing,
+    inequality,
     limit_in_time,
     replaced,
 )
@@ -100,6 +102,26 @@ class Vanishes(Rule):
 
 
 vanishes = Vanishes()
+
+
+@dataclass(frozen=True)
+class Ordered(Rule):
+    """``a >= b`` or ``a > b`` at every time, and ``a - b -> d``, finite: ``d >= 0``."""
+
+    words = "A limit keeps the order in {0}, but not its strictness, with {others}."
+    source = "Rudin, 1976, theorem 4.2"
+    premise_names = ("the inequality", "the limit of the difference")
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        order, given = inequality(premises[0]), limit_in_time(premises[1])
+        if not is_zero(given.expr - order.greater + order.lesser):
+            raise RuleError(f"missing premise: the limit of {order.greater - order.lesser}")
+        if given.value.is_finite is False:
+            raise RuleError(f"missing premise: the limit of {given.expr} is finite")
+        return Conclusion(Inequality(sp.Ge(given.value, 0, evaluate=False)))
+
+
+ordered = Ordered()
 
 
 @dataclass(frozen=True)

@@ -45,6 +45,8 @@ RELATIONS: tuple[sp.Basic, ...] = (
     sp.Eq(f_c, 1),
     sp.Ge(u_c, 0),
     sp.Ge(u_c, C * t),
+    sp.Gt(h + h_0 * T / t, u_a),
+    sp.Eq(forever(h - u_a), theta),
     sp.Le(sp.Abs(U_a), U),
     sp.Eq(h, h_0 + u_c - U_a),
     sp.Eq(h, f_c * u_a),
@@ -91,6 +93,7 @@ FREE: tuple[Callable[[], Rule], ...] = (
     limits.OnePeriodLater,
     growth.Unbounded,
     limits.Vanishes,
+    limits.Ordered,
     limits.Accumulates,
     drift.FirstOrder,
 )

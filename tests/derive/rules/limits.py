@@ -10,7 +10,15 @@ from derive.rules.assumption import assume, defined
 from derive.rules.drift import LeadingTerm
 from derive.rules.growth import AtInfinity, Diverges, intermittent, unbounded
 from derive.rules.inequalities import Arithmetic
-from derive.rules.limits import Passes, accumulates, forever, later, one_period_later, vanishes
+from derive.rules.limits import (
+    Passes,
+    accumulates,
+    forever,
+    later,
+    one_period_later,
+    ordered,
+    vanishes,
+)
 from derive.symbols import rate, symbols, t
 from tests.derive.judgements import (
     APART,
@@ -52,6 +60,7 @@ NOTHING = b_0 / (h_0 - L)
 ROUGH, WORN = Arithmetic(sp.Gt(sigma, 0, evaluate=False))(), gt(u_c, 0)
 STEP = sp.Piecewise((1, sp.Gt(G, 0)), (0, True))
 WITH_G = C * (2 + sp.tanh(G * q / (u_c**2 + q**2)))
+AT_LAST = Diverges(t)(Arithmetic(sp.Ge(t, t, evaluate=False))())
 BENDING = C / (1 + u_c**2 / h_star**2)
 
 
@@ -156,6 +165,15 @@ FAMILIES = (
         "a squeeze by the load": ("is a constant over", sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c)),
         "bounds of two": ("encloses", sp.Le(G, h_0 / u_c), sp.Ge(h, 0)),
     }),
+    Family(lambda value, difference=h - u_a: ordered(
+        gt(h + h_0 * T / t, u_a), Passes(end(difference + h_0 * T / t, value))(
+            tends(difference, value), AT_LAST)
+    ), (theta,), {
+        "the limit of another difference": ("the limit of", theta, h + u_a),
+    }),
+    Family(lambda value: ordered(gt(h, u_a), tends(h - u_a, value)), (0,), {
+        "an infinite difference": ("is finite", sp.oo),
+    }),
     Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.S.Zero + value))(*known), (
         (du / u_c, 0, tends(du, C), DEEP),
         (G / (h_0 / u_c + G), 1, tends(G, theta), DEEP, ne(theta, 0), ne(h_0 / u_c + G, 0)),
@@ -166,7 +184,10 @@ FAMILIES = (
         (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
         ((u_c**2 - h**2) / (u_c - h) - 2 * h, theta, tends(u_c - h, theta), ne(u_c, h)),
         (sp.log(G), sp.log(q), tends(G, q), gt(G, 0)),
+        (1 / (1 + T / (f_c * t)), 1, AT_LAST, ROUGHENS), (h_0 ** (T / t), 1, AT_LAST, gt(h_0, 0)),
     ), {
+        "f_c N/(1 + f_c N)": ("continuous at", 1 / (1 + T / (f_c * t)), 1, AT_LAST),  # f_c = 0
+        "h_0^(1/N)": ("continuous at", h_0 ** (T / t), 1, AT_LAST),  # h_0 = 0
         # G = h_0/u_c
         "u_c G/(h_0 + u_c G)": ("continuous at", G / (h_0 / u_c + G), 1, tends(G, 0), DEEP),
         # G = h_0/u_c
