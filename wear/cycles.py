@@ -5,7 +5,7 @@ Overview
     of one variant of the model are solved together. See docs/method.md.
 Key results
     wear_after      wear after whole numbers of cycles
-    cycles_until    cycles to a wear depth
+    first_passage   cycles to a wear depth
     sweep           the wear of many scenes after the same cycles
     cycles_to_depth the cycles of many scenes to the same wear depths
 """
@@ -70,7 +70,7 @@ class CyclesToDepth(NamedTuple):
 
 # Trial states far off the solution may overflow; NaN fails the error estimate.
 @np.errstate(all="ignore")
-def count_cycles(
+def orbit_of_scene(
     model: Model,
     load: Load,
     cycles: float,
@@ -143,7 +143,7 @@ def stages(
     while True:
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
-        found = count_cycles(model, acting, ends - done, rtol, start, deadline)
+        found = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
         part = Stage(acting, done, ends, found, 0.0)
         if ends >= last and not start_error:
             yield part
@@ -184,7 +184,7 @@ def wear_after(
     return Wear(u, error, cost, tuple(notices))
 
 
-def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> CyclesToDepth:
+def first_passage(model: Model, load: Loading, wear: FloatArray, rtol: float) -> CyclesToDepth:
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
@@ -215,8 +215,8 @@ def cycles_until(model: Model, load: Loading, wear: FloatArray, rtol: float) -> 
 def _as_far_as_needed(
     model: Model, load: Loading, wear: FloatArray, rtol: float
 ) -> Iterator[Stage]:
-    """Yield the blocks of a load, or one stretch of a load that repeats, ever longer till it has
-    the deepest wear (mm)."""
+    """Yield the blocks of a load; or, of a load that repeats, one stage with ever more cycles until
+    it reaches the deepest wear (mm)."""
     most = float(min(MOST_CYCLES, most_cycles(load)))
     if isinstance(load, Blocks):
         yield from stages(model, load, most, rtol)
@@ -294,7 +294,7 @@ def cycles_to_depth(
         return count, np.where(np.isinf(count), 0.0, error)
 
     def alone(scene: Scene) -> Answer:
-        return cycles_until(bind(scene), scene.load, depths, rtol)
+        return first_passage(bind(scene), scene.load, depths, rtol)
 
     count, error = _each(fewer, len(depths), together, alone, progress)
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))

@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.binding import bind
-from wear.cycles import count_cycles
+from wear.cycles import orbit_of_scene
 from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.numerics.rows import take
-from wear.orbit.iterates import Iterates, cells
+from wear.orbit.iterates import Iterates, count_table
 from wear.orbit.steady_state import SteadyState, steady_state
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene
@@ -47,20 +47,21 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     if rate * MOST_CYCLES < scene.initial_roughness:
         return None
     cycles = min(DEEPEST * scene.initial_roughness / rate, MOST_CYCLES)
-    segment = count_cycles(bind(scene), scene.periodic_load, cycles, RTOL).orbit.last(0)
-    table = segment.iterates
-    if isinstance(table, TabulatedIterates) and table.coordinate.shift > 0.0:
-        table = table.in_z
-    if not isinstance(table, Iterates) or table.cells is None or table.panels is None:
+    segment = orbit_of_scene(bind(scene), scene.periodic_load, cycles, RTOL).orbit.last(0)
+    iterates = segment.iterates
+    if isinstance(iterates, TabulatedIterates) and iterates.coordinate.shift > 0.0:
+        iterates = iterates.in_z
+    if not isinstance(iterates, Iterates) or (table := iterates.table) is None:
         return None
-    panel = take(table.panels, slice(-1, None))
-    if not _contact_lasts(scene, float(panel.frame.starts[0])):
+    assert iterates.density is not None
+    panel = take(iterates.density, slice(-1, None))
+    if not _contact_lasts(scene, float(panel.grid.starts[0])):
         return None
-    size = len(table.cells.u) // len(table.panels.series)  # cells of a panel
+    size = len(table.u) // len(iterates.density.series)  # cells of a panel
     # The count may begin within the panel.
-    within = float(cells(panel).cycles_until(table.cells.u[[-size]])[0])
-    before = float(segment.begins[0]) + float(table.cells.cycles[-size]) - within
-    uncertain = float(segment.count_uncertainty[0]) + float(table.count_error[0][-size - 1])
+    within = float(count_table(panel).cycles_at(table.u[[-size]])[0])
+    before = float(segment.begins[0]) + float(table.cycles[-size]) - within
+    uncertain = float(segment.count_uncertainty[0]) + float(iterates.count_error[0][-size - 1])
     with np.errstate(all="ignore"):  # a panel that ends before the steady state does
         found = steady_state(panel, before)
     error = rate * uncertain + ERROR_RATIO * abs(found.drift - drift)

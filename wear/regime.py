@@ -26,7 +26,7 @@ import numpy as np
 
 from wear import own_laws
 from wear.binding import bind
-from wear.cycles import count_cycles
+from wear.cycles import orbit_of_scene
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
@@ -344,7 +344,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, None if it is unknown, and the notices."""
-    found = count_cycles(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
+    found = orbit_of_scene(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
     end = found.end
     if end is not None and end.way == FADES:
         return None, (str(end),)

@@ -13,7 +13,7 @@ from tests.judges import static_wear
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear import inside
 from wear.binding import bind
-from wear.cycles import count_cycles, wear_after
+from wear.cycles import orbit_of_scene, wear_after
 from wear.equation import equation_of
 from wear.faults import UsageError
 from wear.inside import Inside, fields_inside
@@ -205,7 +205,7 @@ def test_wear_that_gathers_pace_is_counted_in_stages() -> None:
     """Out of contact at first, roughness grows until contact sets in: the count begins anew."""
     scene = made(0.03, 0.55, Constant(0.0, 0.06), closure=7.3 * 3.6e-4)
     cycles = np.array([0.0, 100.0, 12_823.0, 12_824.0, 12_830.0, 1e5, 1e7])
-    counted = count_cycles(bind(scene), scene.periodic_load, 1e7, 1e-12)
+    counted = orbit_of_scene(bind(scene), scene.periodic_load, 1e7, 1e-12)
     assert len(counted.orbit.segments) > 1
     phases = np.array([0.0, 0.4, 1.0])
     found = history(scene, cycles, phases)

@@ -118,7 +118,7 @@ def test_the_request_is_met_by_wear_of(drawn):
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_variants_may_be_mixed_in_any_order(seed):
-    """Jobs that are joined on the way hold their scenes in any order."""
+    """Batches that are joined on the way hold their scenes in any order."""
     rng = np.random.default_rng(seed)
     scenes = []
     for pin, k in ((False, None), (True, None), (False, 1e5)):

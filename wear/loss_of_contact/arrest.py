@@ -10,8 +10,8 @@ import numpy as np
 from wear.loss_of_contact.increments import TO_ROUNDOFF, Coordinate, IncrementSeries
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.orbit.abel import Panels
-from wear.orbit.iterates import Cells, Iterates
+from wear.orbit.abel import Density
+from wear.orbit.iterates import CountTable, Iterates
 
 NO_DIGIT = 0.1  # relative error
 RESOLVABLE = 1e5  # times the uncertainty of the limit wear
@@ -38,8 +38,8 @@ class TabulatedIterates(NamedTuple):
     rounding of the limit wear."""
 
     series: IncrementSeries
-    table: Cells
-    panels: Panels
+    table: CountTable
+    density: Density
     count_error: FloatArray
     limit_wear: LimitWear | None
     limit: FloatArray
@@ -55,7 +55,7 @@ class TabulatedIterates(NamedTuple):
         """Return the same iterates with z as the state."""
         begin, none, edges = self.table.u[:1][None], np.zeros((1, 1)), np.array([[0.0, 1.0]])
         limit = np.array([np.inf])
-        return Iterates(begin, none, self.table, self.panels, self.count_error[None], limit, edges)
+        return Iterates(begin, none, self.table, self.density, self.count_error[None], limit, edges)
 
     def take(self, rows: IntArray) -> TabulatedIterates:
         """Return the same: it is of one scene."""
@@ -111,7 +111,7 @@ class TabulatedIterates(NamedTuple):
             within = wear <= self.last_state
         count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
         z = np.clip(self.coordinate.at(wear[within]), self.table.u[0], self.table.ends[-1])
-        found = self.table.cycles_until(z)
+        found = self.table.cycles_at(z)
         uncertain = self._error_at(found)
         if self.limit_wear:
             uncertain += self.limit_wear.uncertainty * z**2 / self.table.state_after(found)[1]

@@ -2,10 +2,10 @@
 
 Between two grazing wears (`wear.loss_of_contact.grazing`) the increments of a cycle are series
 (`wear.loss_of_contact.increments`); where cycles are many, Abel's equation counts them
-(`wear.loss_of_contact.stretch`). The few cycles next to a grazing wear are taken one by one, by the
-series as long as they do not pass it. The cycles that pass it, and the last ones before wear stops,
-are integrated: their initial wears are predicted all the way ahead, so that they are integrated at
-once, and corrected as in Newton's method.
+(`wear.loss_of_contact.wear_ranges`). The few cycles next to a grazing wear are taken one by one, by
+the series as long as they do not pass it. The cycles that pass it, and the last ones before wear
+stops, are integrated: their initial wears are predicted all the way ahead, so that they are
+integrated at once, and corrected as in Newton's method.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ import numpy as np
 
 from wear.load import Load
 from wear.loss_of_contact.arrest import TabulatedIterates, UnresolvedIterates
-from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import IncrementSeries, fitted
-from wear.loss_of_contact.parts import (
+from wear.loss_of_contact.cycle_jumps import (
+    CountPart,
+    CountPartIterates,
     CycleJump,
-    Part,
-    PartIterates,
     SingleCycles,
     walked,
     with_error,
 )
+from wear.loss_of_contact.grazing import limit_wear_of
+from wear.loss_of_contact.increments import IncrementSeries, fitted
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import SHIFT, CountProblem, GrazingPoint, count_problem, plan_domains
 from wear.loss_of_contact.queries import (
     CYCLES,
     FINER_CYCLES,
     JUMPS,
-    STRETCHES,
+    WEAR_RANGES,
     BatchSolver,
     Coroutine,
     Query,
@@ -45,8 +45,8 @@ from wear.loss_of_contact.queries import (
     without_feedback,
 )
 from wear.loss_of_contact.samples import Samples
-from wear.loss_of_contact.stretch import AbelSolution, Stretch, cycles_to_end, stretches
 from wear.loss_of_contact.switching import Edge
+from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, cycles_to_end, wear_ranges
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
@@ -95,7 +95,7 @@ def count_scenes(
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(each, rtol, deadline) for each in requests]
-    answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _stretches]
+    answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _wear_ranges]
     answers += [cycles_by(coarse), cycles_by(fine)]
     counters = run_together(counts, answers)
     parts = [part for counter in counters for part in counter.parts]
@@ -111,10 +111,10 @@ def _jumps(_: list[int], counters: list[tuple[AbelSolution, float]]) -> list[tup
     return cycles_to_end(counters)
 
 
-def _stretches(
+def _wear_ranges(
     _: list[int], known: list[tuple[list[IncrementSeries], CountProblem]]
-) -> Iterator[list[Stretch]]:
-    found = iter(stretches([(series, problem) for some, problem in known for series in some]))
+) -> Iterator[list[WearRange]]:
+    found = iter(wear_ranges([(series, problem) for some, problem in known for series in some]))
     return ([next(found) for _ in some] for some, _ in known)
 
 
@@ -129,15 +129,15 @@ def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Co
 
 class _Counter:
     """The count of a scene so far: its `parts` in order, `done` cycles in all, and the `wear` (mm)
-    after them. It follows `stretches` on which the increments are known; between them it takes
+    after them. It follows `wear_ranges` on which the increments are known; between them it takes
     integrated cycles, `samples`, whose initial wears are predicted, several at once. While it
     predicts, `predicted` collects the initial wears of cycles to integrate."""
 
     def __init__(self, problem: CountProblem, start: float) -> None:
         self.problem, self.wear, self.done = problem, start, 0.0
         self.over = self.arrested = self.fades = False
-        self.parts: list[Part] = []
-        self.stretches: list[Stretch] = []
+        self.parts: list[CountPart] = []
+        self.wear_ranges: list[WearRange] = []
         self.planned_to = start
         self.samples = Samples()
         self.last_added = 0.0
@@ -167,17 +167,17 @@ class _Counter:
         problem = self.problem
         added = yield from without_feedback(np.array([self.wear]))
         if added[0] > VIOLENT * (SHIFT * problem.scale + self.wear):
-            self.stretches, self.planned_to = [], np.nextafter(self.wear, np.inf)
+            self.wear_ranges, self.planned_to = [], np.nextafter(self.wear, np.inf)
             return
         domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
         number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
         known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
-        self.stretches = yield Query(STRETCHES, (known, problem))
+        self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
 
     def _along(self, cycles: float) -> Coroutine[bool]:
-        """Count on the stretch at this wear, if there is one; return whether that led on."""
-        for here in self.stretches:
+        """Count on the range with this wear, if there is one; return whether that led on."""
+        for here in self.wear_ranges:
             if here.series.domain.start <= self.wear < here.series.domain.end:
                 z = float(here.series.domain.coordinate.at(np.array(self.wear)))
                 abel = here.abel
@@ -202,7 +202,7 @@ class _Counter:
         self.over = self.arrested = self.fades = limit_wear is not None
         return True
 
-    def _walk(self, here: Stretch, end: float, cycles: float) -> bool:
+    def _walk(self, here: WearRange, end: float, cycles: float) -> bool:
         """Take single cycles until z passes `end`."""
         most = min(cycles, MOST_AT_ONCE)
         if self.predicted is not None and not here.series.domain.tends:
@@ -294,7 +294,7 @@ class _Counter:
 
 
 def _segments(
-    counter: _Counter, found: Sequence[PartIterates], request: CountRequest
+    counter: _Counter, found: Sequence[CountPartIterates], request: CountRequest
 ) -> SceneOrbit:
     """Return the parts of a count as segments, with one for the cycles after its end."""
     problem, cycles = counter.problem, request.cycles

@@ -118,7 +118,7 @@ def sample_wears(series: IncrementSeries) -> FloatArray:
     if number > len(order):
         return np.empty(0)
     t, domain = np.append(chebyshev_nodes(number), CHECKS), series.domain
-    wear = domain.wear(series.frame.states(t)).ravel()
+    wear = domain.wear(series.grid.states(t)).ravel()
     nearest = RESOLVABLE * domain.uncertainty
     return np.minimum(wear, domain.coordinate.origin - nearest) if domain.tends else wear
 

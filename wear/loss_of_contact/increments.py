@@ -23,7 +23,7 @@ from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, product
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
-from wear.orbit.abel import Frame
+from wear.orbit.abel import Grid
 from wear.orbit.panels import CHECKS, SPLIT, near_checks
 from wear.orbit.problem import Cost
 
@@ -97,19 +97,19 @@ class SeriesDomain(NamedTuple):
         return first, 1.0 / (TO_ROUNDOFF * self.coordinate.origin) if self.tends else last
 
     @property
-    def frame(self) -> Frame:
+    def grid(self) -> Grid:
         """Return one panel of w."""
         ends = np.sort(self.coordinate.at(np.array([self.start, self.end])) ** self.power)
-        return abel.frame(self.scale, ends[:1], ends[1:])
+        return abel.grid(self.scale, ends[:1], ends[1:])
 
 
 class IncrementSeries(NamedTuple):
     """The increments D of cycles on a `domain`: ln(D/(level w^vanishes)) as Chebyshev `series` (p,
-    m) on a `frame` of panels of w, each with its `level` (p,). The relative error `misfit` (p, 6)
+    m) on a `grid` of panels of w, each with its `level` (p,). The relative error `misfit` (p, 6)
     at the CHECKS is the difference to integrated cycles, and the error of these."""
 
     domain: SeriesDomain
-    frame: Frame
+    grid: Grid
     level: FloatArray
     series: FloatArray
     misfit: FloatArray
@@ -124,7 +124,7 @@ class IncrementSeries(NamedTuple):
         but at most so many cycles."""
         origin, ahead, _ = self.coordinate
         power, scale, vanishes = self.domain.power, self.domain.scale, self.domain.vanishes
-        starts, across = self.frame.starts.tolist(), self.frame.x_ends.tolist()
+        starts, across = self.grid.starts.tolist(), self.grid.x_ends.tolist()
         series, level = [row[::-1] for row in self.series.tolist()], self.level.tolist()
         walked, distance = [wear], origin - wear
         z = 1.0 / distance if ahead else -distance
@@ -174,7 +174,7 @@ def located(
     number = [len(each.level) for each in known]
     starts, across = (
         np.concatenate(each)
-        for each in zip(*((each.frame.starts, each.frame.x_ends) for each in known), strict=True)
+        for each in zip(*((each.grid.starts, each.grid.x_ends) for each in known), strict=True)
     )
     begins = np.full((len(known), max(number)), np.inf)
     begins[np.arange(max(number)) < np.array(number)[:, None]] = starts
@@ -191,15 +191,15 @@ def fitted(
     """Fit the increments on every domain, with `number` coefficients on each panel, to a relative
     `tolerance`: the panels of all domains at once, those that miss it cut in pieces. Return a
     series for each part of a domain on which the fit succeeds."""
-    frames = [domain.frame for domain in domains]
+    grids = [domain.grid for domain in domains]
     found: list[list[IncrementSeries]] = [[] for _ in domains]
     cost, t = Cost(0, 0), np.append(chebyshev_nodes(number), CHECKS)
     vanishes = np.array([domain.vanishes for domain in domains])
     for rounds in range(MOST_ROUNDS):
-        some = [i for i, frame in enumerate(frames) if len(frame.starts)]
+        some = [i for i, grid in enumerate(grids) if len(grid.starts)]
         if not some:
             break
-        states = [frames[i].states(t) for i in some]
+        states = [grids[i].states(t) for i in some]
         of, w = np.repeat(some, [len(part) for part in states]), np.concatenate(states)
         wear = np.concatenate([domains[i].wear(part) for i, part in zip(some, states, strict=True)])
         run = yield Query(CYCLES, wear.ravel())
@@ -210,13 +210,13 @@ def fitted(
         excess = np.max(fits[-1] / _allowed(domains, of, wear[:, number:], tolerance), axis=1)
         coarse = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
         for i in some:
-            series = IncrementSeries(domains[i], frames[i], *take(fits, of == i))
+            series = IncrementSeries(domains[i], grids[i], *take(fits, of == i))
             cut_again, far = coarse[of == i], excess[of == i]
             found[i].append(take(series, ~cut_again & (far <= USABLE)))
-            frames[i] = take(frames[i], cut_again)
+            grids[i] = take(grids[i], cut_again)
             if cut_again.any():
-                halves, far_off = cut(frames[i]), np.tile(far[cut_again] > FAR_OFF, 2)
-                frames[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
+                halves, far_off = cut(grids[i]), np.tile(far[cut_again] > FAR_OFF, 2)
+                grids[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
     return [known for parts in found for known in _joined(parts)], cost
 
 
@@ -245,14 +245,14 @@ def _allowed(
 def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
     """Return the series of a domain: one for each run of adjacent panels."""
     every = stacked(parts)
-    domain, frame = every.domain, every.frame
-    order = np.argsort(frame.starts)
-    starts, ends = frame.starts[order], frame.ends[order]
+    domain, grid = every.domain, every.grid
+    order = np.argsort(grid.starts)
+    starts, ends = grid.starts[order], grid.ends[order]
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
     known, near = [], SAME * (domain.end - domain.start)
     for run in np.split(order, gaps) if len(order) else []:
         panels = take(every, run)
-        begin, end = np.sort(domain.wear(np.array([panels.frame.starts[0], panels.frame.ends[-1]])))
+        begin, end = np.sort(domain.wear(np.array([panels.grid.starts[0], panels.grid.ends[-1]])))
         begin = domain.start if begin <= domain.start + near else begin
         whole = end >= domain.end - near
         last = domain.end if whole else end
@@ -270,8 +270,8 @@ def _to_limit(known: IncrementSeries) -> IncrementSeries:
     Taylor's expansion, as far as these exceed their error by the misfit; the one at which that
     ends, at w = 0, is the error of the extrapolation."""
     first, m = take(known, slice(1)), known.series.shape[1]
-    frame = abel.frame(first.frame.c, np.zeros(1), first.frame.starts)
-    d = first.frame.positions(frame.states(chebyshev_nodes(TERMS)))[0] + 1.0
+    grid = abel.grid(first.grid.c, np.zeros(1), first.grid.starts)
+    d = first.grid.positions(grid.states(chebyshev_nodes(TERMS)))[0] + 1.0
     k, factor, values = np.arange(m), (-1.0) ** np.arange(m), np.zeros(TERMS)
     for n in range(TERMS):  # of T_k(-1 + d), a polynomial in d
         term = float(np.sum(factor * first.series[0]))
@@ -282,11 +282,11 @@ def _to_limit(known: IncrementSeries) -> IncrementSeries:
     series = np.zeros((1, m))
     series[0, :TERMS] = chebyshev_analysis(TERMS) @ values
     misfit = np.repeat(first.misfit[:, :1], len(CHECKS), axis=1) + abs(term) * np.max(-d) ** n
-    return first._replace(frame=frame, series=series, misfit=misfit)
+    return first._replace(grid=grid, series=series, misfit=misfit)
 
 
-def cut(frame: Frame) -> Frame:
+def cut(grid: Grid) -> Grid:
     """Return every panel cut in two."""
-    middle = frame.x_of(frame.widths[:, None] / 2)[:, 0] / frame.x_ends
-    share = np.where((frame.c > 0.0) & (frame.widths < WIDE), SPLIT, middle)
-    return stacked(frame.cut(share))
+    middle = grid.x_of(grid.widths[:, None] / 2)[:, 0] / grid.x_ends
+    share = np.where((grid.c > 0.0) & (grid.widths < WIDE), SPLIT, middle)
+    return stacked(grid.cut(share))

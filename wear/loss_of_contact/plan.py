@@ -21,9 +21,10 @@ from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
+from wear.orbit.iterates import nonzero
 from wear.orbit.period_map import Settings, settings
+from wear.orbit.plan import LEAST, MOST_LOG
 
-LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
 STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
@@ -38,7 +39,7 @@ NEAR, NEARER = 8, 10  # of these: they give the power of the distance
 ROOT = 0.5
 LEAST_LEFT = 1e-5  # of the distance to a limit wear: from there on the series is extrapolated
 RESOLVED = 1e3  # times the uncertainty of the limit wear: a distance that is known
-AHEAD = 1.3  # times the requested cycles are plan_domains
+AHEAD = 1.3  # times the requested cycles are planned
 
 
 class GrazingPoint(NamedTuple):
@@ -141,8 +142,8 @@ def plan_domains(
 def _looks(
     ends: list[float], branches: list[float]
 ) -> Coroutine[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
-    """Return distances (stretches, k) from the wear at the beginning of every stretch, and those
-    from the branch point at its end, both falling from half the stretch; and the increments of
+    """Return distances (ranges, k) from the wear at the beginning of every range, and those
+    from the branch point at its end, both falling from half the range; and the increments of
     cycles there."""
     begin, end = np.array(ends[:-1]), np.array(ends[1:])
     branch, half = np.array(branches), (begin + end) / 2
@@ -205,13 +206,12 @@ def look_ahead(problem: CountProblem, start: float, cycles: float) -> Coroutine[
         y = np.linspace(0.0, np.log1p((end - start) / (start + problem.scale)), STEPS_AHEAD)
     wear: FloatArray = start + (start + problem.scale) * np.expm1(y)
     added = yield from without_feedback(wear)
-    density = np.minimum(-np.log(added + TINY), 650.0)
-    rise = np.diff(density)
-    rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
+    density = np.minimum(-np.log(added + TINY), MOST_LOG)
+    rise = nonzero(np.diff(density))
     # Between two points the density is taken as exponential in the wear.
     parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(wear)
     counts = np.concatenate([[0.0], np.cumsum(parts)])
-    needed = 1.3 * max(cycles, LEAST)
+    needed = AHEAD * max(cycles, LEAST)
     last = int(np.searchsorted(counts, needed)) - 1
     if last >= len(parts):
         return float(wear[-1])

@@ -119,13 +119,13 @@ def _rough(iterates: Iterates) -> IntArray:
 
 def _positions(iterates: TabulatedIterates) -> FloatArray:
     """Return the nodes of panels, and then the CHECKS."""
-    return np.append(chebyshev_nodes(iterates.panels.series.shape[1]), CHECKS)
+    return np.append(chebyshev_nodes(iterates.density.series.shape[1]), CHECKS)
 
 
 def _resolved(iterates: TabulatedIterates, t: FloatArray) -> FloatArray:
     """Return z (panels, n) at the positions `t` (n,) of panels, no nearer to the limit wear than
     rounding permits."""
-    z = iterates.panels.frame.states(t)
+    z = iterates.density.grid.states(t)
     limit_wear = iterates.limit_wear
     return z if limit_wear is None else np.minimum(z, 1.0 / limit_wear.nearest)
 
@@ -194,8 +194,8 @@ def _added(
     """Return the increments of z, and of dz/dp - its value for du/dp = `limit`, for cycles from the
     nodes and the CHECKS of each panel, with the derivative of their map and the error, as of
     `SumIncrements`; `limit` is (parameters,)."""
-    panels, coordinate, t = iterates.panels, iterates.coordinate, _positions(iterates)
-    z, at = panels.frame.states(t), _resolved(iterates, t)
+    panels, coordinate, t = iterates.density, iterates.coordinate, _positions(iterates)
+    z, at = panels.grid.states(t), _resolved(iterates, t)
     near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
     increment = step(coordinate.ahead, at, run.increment.reshape(z.shape)) / near
     one, after = np.ones(1), coordinate.rate(z + increment, np.ones(1))

@@ -6,7 +6,7 @@ Overview
     integral of the density from u to u + d is 1. Collocated at the Chebyshev nodes it is solved by
     Newton's method, all panels at once.
 Key results
-    Frame              panels of states and their coordinates
+    Grid               panels of states and their coordinates
     solve              the density on them, from increments at their nodes
     residual           the logarithm of what a cycle counts as, off the nodes
     matching_defect    by how much the counts of neighbours differ where they meet
@@ -37,7 +37,7 @@ CONVERGED = 1e-13  # change of ln(density): the next one would be its square
 WHOLE = np.ones(1)  # a cycle
 
 
-class Frame(NamedTuple):
+class Grid(NamedTuple):
     """Panels of states from `starts` (panels,) over `widths` in y = ln(u + c), with the scale `c`
     (panels,) of each. The coordinate x = (u - start)/(u + c) is 1 - exp(-y) with y from the start;
     or y itself where c is zero: then the states have no scale."""
@@ -93,32 +93,33 @@ class Frame(NamedTuple):
             return np.asarray(log * (2 / self.x_ends)[:, None, None])
         return np.asarray(-np.expm1(-log) * (2 / self.x_ends)[:, None, None] * left[..., None])
 
-    def cut(self, share: FloatArray | float) -> tuple[Frame, Frame]:
+    def cut(self, share: FloatArray | float) -> tuple[Grid, Grid]:
         """Return every panel cut in two, the first part a `share` of it in x."""
         x = share * self.x_ends
         first = x if self._without_scale else -np.log1p(-x)
         middles = self.starts + (self.starts + self.c) * np.expm1(first)
-        return self._replace(widths=first), Frame(self.c, middles, self.widths - first)
+        return self._replace(widths=first), Grid(self.c, middles, self.widths - first)
 
     @property
     def _without_scale(self) -> bool:
         return not self.c.any()
 
 
-class Panels(NamedTuple):
-    """A `frame` of panels with the Chebyshev coefficients `series` (panels, m) of ln(dn/du)."""
+class Density(NamedTuple):
+    """The density dn/du on a `grid` of panels: Chebyshev coefficients `series` (panels, m) of its
+    logarithm."""
 
-    frame: Frame
+    grid: Grid
     series: FloatArray
 
 
-def frame(c: float | FloatArray, starts: FloatArray, ends: FloatArray) -> Frame:
+def grid(c: float | FloatArray, starts: FloatArray, ends: FloatArray) -> Grid:
     """Return panels between two states each, with the scale c, one or one a panel."""
     c = np.broadcast_to(np.asarray(c, dtype=float), starts.shape)
-    return Frame(c, starts, np.log1p((ends - starts) / (starts + c)))
+    return Grid(c, starts, np.log1p((ends - starts) / (starts + c)))
 
 
-def solve(frame: Frame, increments: FloatArray) -> Panels:
+def solve(grid: Grid, increments: FloatArray) -> Density:
     """Return the density on every panel, from the increments at its Chebyshev nodes (panels, m).
 
     Newton's method, from the density 1/increment, which is exact when the density does not change
@@ -127,10 +128,10 @@ def solve(frame: Frame, increments: FloatArray) -> Panels:
     m = increments.shape[1]
     nodes = chebyshev_nodes(m)
     with np.errstate(all="ignore"):  # far too wide a panel: its series is no number
-        step = frame.step(nodes, increments)[..., 0]
+        step = grid.step(nodes, increments)[..., 0]
         gentle = np.max(change_in_a_cycle(np.log(increments), step)) < GENTLE
         rule = gauss(ACROSS_A_CYCLE if gentle else ACROSS_A_FAST_CYCLE)
-        basis = _within(nodes, frame.step(nodes, increments, rule.nodes), m)
+        basis = _within(nodes, grid.step(nodes, increments, rule.nodes), m)
         last = increments[:, -1:]
         weights = (increments / last)[..., None] * rule.weights
         series = product(-np.log(increments / last), chebyshev_analysis(m).T)
@@ -144,7 +145,7 @@ def solve(frame: Frame, increments: FloatArray) -> Panels:
             if not np.any(np.abs(change) >= CONVERGED):
                 break
         series[:, :1] -= np.log(last)
-    return Panels(frame, series)
+    return Density(grid, series)
 
 
 def change_in_a_cycle(density: FloatArray, step: FloatArray) -> FloatArray:
@@ -183,7 +184,7 @@ def _inverse_slope(density: FloatArray, cycles: FloatArray, basis: FloatArray) -
     return inverse
 
 
-def residual(panels: Panels, t: FloatArray, increments: FloatArray) -> FloatArray:
+def residual(panels: Density, t: FloatArray, increments: FloatArray) -> FloatArray:
     """Return ln(n(P(u)) - n(u)) at the positions `t` of each panel: zero for the exact n.
 
     `increments` (panels, len(t)) are those of a finer period map. A residual r means that the
@@ -206,7 +207,7 @@ class SumIncrements(NamedTuple):
     error: FloatArray | float = 0.0
 
 
-def sum_per_cycle(panels: Panels, cycles: SumIncrements) -> FloatArray:
+def sum_per_cycle(panels: Density, cycles: SumIncrements) -> FloatArray:
     """Return the coefficients (panels, m, k) of dS/dn, where the `cycles` from the nodes of a panel
     add dn/du times their `change` to S, with dn/du at their ends.
 
@@ -223,7 +224,7 @@ def sum_per_cycle(panels: Panels, cycles: SumIncrements) -> FloatArray:
 
 
 def sum_residual(
-    panels: Panels, t: FloatArray, cycles: SumIncrements, series: FloatArray
+    panels: Density, t: FloatArray, cycles: SumIncrements, series: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the error (panels, n, k) of S(P(u)) - S(u) for the `cycles` from the positions `t`
     (n,) of each panel, for S with the coefficients `series` (panels, m, k) of dS/dn; and the
@@ -239,7 +240,7 @@ def sum_residual(
 
 
 def _sums_from(
-    panels: Panels, t: FloatArray, increments: FloatArray, rule: Gauss
+    panels: Density, t: FloatArray, increments: FloatArray, rule: Gauss
 ) -> tuple[FloatArray, FloatArray]:
     """Return the matrices (panels, n, m) from coefficients of dS/dn to the increments of S in
     cycles from the positions `t` (n,), by the nodes of a rule, and dn/du (panels, n, 1) at their
@@ -251,18 +252,18 @@ def _sums_from(
 
 
 def _cycles_from(
-    panels: Panels, t: FloatArray, increments: FloatArray, rule: Gauss
+    panels: Density, t: FloatArray, increments: FloatArray, rule: Gauss
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the weighted density at the nodes of a rule within the cycles from the positions `t`,
     its sums, and the polynomials there."""
-    steps = panels.frame.step(t, increments, rule.nodes)
+    steps = panels.grid.step(t, increments, rule.nodes)
     basis = _within(t, steps, panels.series.shape[1])
     level, shape = level_and_shape(panels.series)
     density, cycles = _density(shape, basis, (level * increments)[..., None] * rule.weights)
     return density, cycles, basis
 
 
-def matching_defect(before: Panels, after: Panels) -> FloatArray:
+def matching_defect(before: Density, after: Density) -> FloatArray:
     """Return by how many cycles (panels,) the counts of neighbours differ within a cycle of where
     they meet; one value for every panel of `before` and its neighbour in `after`.
 
@@ -276,7 +277,7 @@ def matching_defect(before: Panels, after: Panels) -> FloatArray:
     difference = np.zeros((len(steps), len(rule.nodes)))
     for side, t in ((before, 1.0), (after, -1.0)):
         at = np.array([t])
-        basis = _within(at, side.frame.step(at, steps, rule.nodes), m)
+        basis = _within(at, side.grid.step(at, steps, rule.nodes), m)
         level, shape = level_and_shape(side.series)
         difference += t * _density(shape, basis, (level * steps)[..., None])[0][:, 0]
     result: FloatArray = np.max(np.abs(difference @ rule.integrate.T), axis=1)

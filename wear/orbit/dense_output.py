@@ -40,7 +40,7 @@ class PhaseIncrements(NamedTuple):
 
 
 class _DensePanels(NamedTuple):
-    """The increments of cycles from the panels of a `frame`: Chebyshev coefficients `series`
+    """The increments of cycles from the panels of a `grid`: Chebyshev coefficients `series`
     (panels, m, columns), their `error` (panels,), and that of the observable, `observable_error`
     (panels,).
 
@@ -48,7 +48,7 @@ class _DensePanels(NamedTuple):
     observable there.
     """
 
-    frame: abel.Frame
+    grid: abel.Grid
     series: FloatArray
     error: FloatArray
     observable_error: FloatArray
@@ -76,11 +76,11 @@ class DenseOutput(NamedTuple):
         columns[early] = self.first[index]
         error[early] = self.first_error[index]
         if self.panels is not None:  # else no cycle adds anything any more
-            frame, series, of_panels, of_observable = self.panels
-            panel = np.where(early, -1, cell_of(frame.starts, starts))
+            grid, series, of_panels, of_observable = self.panels
+            panel = np.where(early, -1, cell_of(grid.starts, starts))
             for p in np.unique(panel[~early]):
                 chosen = panel == p
-                t = take(frame, slice(p, p + 1)).positions(starts[None, chosen])[0]
+                t = take(grid, slice(p, p + 1)).positions(starts[None, chosen])[0]
                 columns[chosen] = chebyshev_values(t, series.shape[1]) @ series[p]
                 error[chosen], observable_error[chosen] = of_panels[p], of_observable[p]
         if not self.observed:
@@ -100,7 +100,7 @@ def dense_output(
     """Return the dense output of one scene with these iterates, at `phases` (m,) in [0, 1]."""
     size, states = settings(rtol, problem.breakpoints), iterates.transient[0]
     # The first cycle is not interpolated even if panels begin with it.
-    first = states[: max(1, len(states) - 1)] if iterates.cells else states
+    first = states[: max(1, len(states) - 1)] if iterates.table else states
     maps = period_map(problem, iterates.edges, size.finer_nodes)
     maps, added = _resolved(maps, first, np.append(phases, 1.0), rtol)
     added, whole = added[:, :-1], added[:, -1]
@@ -115,7 +115,7 @@ def dense_output(
     error += problem.roundoff(first[None])[0] * np.max(added, axis=1, initial=0.0)
     columns = _with_observable(observable, first, added, problem.forcing(phases[None])[0])
     panels = None
-    if iterates.panels is not None:
+    if iterates.density is not None:
         panels = _on_panels(maps, iterates, phases, rtol, observable)
     return DenseOutput(columns, error, panels, observable is not None)
 
@@ -129,16 +129,16 @@ def _on_panels(
 ) -> _DensePanels:
     """Return the panels of the orbit, cut in two where the increment up to some phase depends on
     the state more sharply than that of the whole cycle."""
-    assert iterates.panels is not None
+    assert iterates.density is not None
     size = settings(rtol, maps.equation.breakpoints)
-    number, frame = len(phases), iterates.panels.frame
+    number, grid = len(phases), iterates.density.grid
     forcing = maps.equation.forcing(phases[None])[0]
     to_series = chebyshev_analysis(size.panel_nodes)
     to_checks = chebyshev_values(CHECKS, size.panel_nodes)
     done: list[_DensePanels] = []
     for rounds in range(MOST_ROUNDS):
-        nodes = frame.states(chebyshev_nodes(size.panel_nodes))
-        checks = frame.states(CHECKS)
+        nodes = grid.states(chebyshev_nodes(size.panel_nodes))
+        checks = grid.states(CHECKS)
         maps, added = _resolved(maps, nodes.ravel(), phases, rtol)
         columns = _with_observable(observable, nodes.ravel(), added, forcing)
         series = to_series @ columns.reshape(*nodes.shape, -1)
@@ -148,17 +148,17 @@ def _on_panels(
         error = np.max(difference[..., :number], axis=(1, 2), initial=0.0)
         of_observable = SAFETY * np.max(difference[..., number:], axis=(1, 2), initial=0.0)
         error[~np.isfinite(difference).all(axis=(1, 2))] = np.inf
-        solved = _DensePanels(frame, series, error, of_observable)
+        solved = _DensePanels(grid, series, error, of_observable)
         # No cycle ends with a state below the increment of the first.
-        least = np.maximum(frame.starts, iterates.first_increment)
+        least = np.maximum(grid.starts, iterates.first_increment)
         cut = ~(SAFETY * error <= rtol / 4 * least)
         if not cut.any() or rounds == MOST_ROUNDS - 1:
             done.append(solved)
             break
         done.append(take(solved, ~cut))
-        frame = stacked(take(frame, cut).cut(SPLIT))
+        grid = stacked(take(grid, cut).cut(SPLIT))
     panels = stacked(done)
-    return take(panels, np.argsort(panels.frame.starts))
+    return take(panels, np.argsort(panels.grid.starts))
 
 
 def _violent(

@@ -24,7 +24,7 @@ import numpy as np
 from wear.numerics.collocation import Tangent
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
-from wear.orbit.period_map import Rows
+from wear.orbit.period_map import Selection
 from wear.orbit.problem import Cost
 from wear.orbit.segments import orbit
 
@@ -33,7 +33,7 @@ CONDITION = 8.0  # roundoffs of a rate, by default
 DIFFERENCE = 1e-6  # of the state and its scale: states between which a slope is taken
 
 
-class States(NamedTuple):
+class StatesAfter(NamedTuple):
     """The states `u` (n,) after the requested cycles, their estimated relative `error`, and the
     cost."""
 
@@ -54,7 +54,7 @@ class _General:
     condition: float
     scenes: int = 1
 
-    def take(self, rows: Rows) -> _General:
+    def take(self, rows: Selection) -> _General:
         return self
 
     def forcing(self, phases: FloatArray) -> FloatArray:
@@ -89,7 +89,7 @@ def count_cycles(
     rtol: float = 1e-10,
     limit: float = np.inf,
     condition: float = CONDITION,
-) -> States:
+) -> StatesAfter:
     """Return the states of du/dt = f(u, t), f of the given period in t, after whole `cycles`.
 
     Parameters
@@ -109,7 +109,7 @@ def count_cycles(
     rtol
         Requested relative error of the states; where it is missed the estimated error says so.
     limit
-        States from here on have no meaning.
+        StatesAfter from here on have no meaning.
     condition
         Relative error of f by rounding, in units of roundoff.
     """
@@ -119,4 +119,4 @@ def count_cycles(
     with np.errstate(all="ignore"):  # trial states far off the solution may overflow
         orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
         u, error = orbits.after(requested)
-    return States(u[0], error[0], orbits.cost)
+    return StatesAfter(u[0], error[0], orbits.cost)

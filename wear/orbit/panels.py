@@ -33,7 +33,7 @@ class Layout(NamedTuple):
     cycles from their nodes, if it is known."""
 
     scene: IntArray
-    frame: abel.Frame
+    grid: abel.Grid
     rate: FloatArray | None = None
 
 
@@ -52,7 +52,7 @@ class PanelSolution(NamedTuple):
     oscillation. If they are kept, the `cycles` from the nodes, and those from the CHECKS."""
 
     scene: IntArray
-    density: abel.Panels
+    density: abel.Density
     residual: FloatArray
     short: BoolArray
     cycles: tuple[PanelCycles, ...] = ()
@@ -92,7 +92,7 @@ def adapt(
     cost = Cost(0, 0)
     for rounds in range(MOST_ROUNDS):
         check = _solve_and_check(coarse, fine, layout, size, tolerance, keep)
-        fresh, (scene, frame, _) = check.panels, layout
+        fresh, (scene, grid, _) = check.panels, layout
         cost = cost.plus(*check.cost)
         np.logical_or.at(marked, scene, check.marked)
         bad = ~(fresh.residual <= tolerance[scene])
@@ -100,17 +100,17 @@ def adapt(
         end = np.full(len(marked), np.inf)
         for part in [*done, fresh]:
             stuck = part.short & ~(part.residual <= tolerance[part.scene])
-            np.minimum.at(end, part.scene[stuck], part.density.frame.starts[stuck])
+            np.minimum.at(end, part.scene[stuck], part.density.grid.starts[stuck])
         unclear = np.any(marked, axis=1)
-        cut = bad & ~fresh.short & (frame.starts < end[scene]) & ~unclear[scene]
+        cut = bad & ~fresh.short & (grid.starts < end[scene]) & ~unclear[scene]
         number = sum(len(part.scene) for part in done) + len(scene)
         if rounds == MOST_ROUNDS - 1 or number > MOST_PANELS * len(marked) or not cut.any():
             done.append(fresh)
             break
         done.append(take(fresh, ~cut))
-        layout = Layout(np.tile(scene[cut], 2), stacked(take(frame, cut).cut(check.share[cut])))
+        layout = Layout(np.tile(scene[cut], 2), stacked(take(grid, cut).cut(check.share[cut])))
     panels = stacked(done)
-    order = np.lexsort((panels.density.frame.starts, panels.scene))
+    order = np.lexsort((panels.density.grid.starts, panels.scene))
     return AdaptivePanels(take(panels, order), marked, cost)
 
 
@@ -123,20 +123,20 @@ def _solve_and_check(
     keep: bool,
 ) -> PanelCheck:
     """Solve Abel's equation with the coarse map; check it off the nodes with the fine one."""
-    scene, frame, frozen = layout
+    scene, grid, frozen = layout
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
-    nodes, checks = chebyshev_nodes(size.panel_nodes), frame.states(CHECKS)
-    ahead = coarse.advance(frame.states(nodes), frozen=frozen)
-    density = abel.solve(frame, ahead.increment)
+    nodes, checks = chebyshev_nodes(size.panel_nodes), grid.states(CHECKS)
+    ahead = coarse.advance(grid.states(nodes), frozen=frozen)
+    density = abel.solve(grid, ahead.increment)
     judge = fine.advance(checks, at_checks(ahead, size.finer_nodes))
     residuals = np.abs(abel.residual(density, CHECKS, judge.increment))
     far = np.max(residuals[:, -2:], axis=1) > FAR_OUT * np.max(residuals[:, :-2], axis=1)
-    far &= frame.c > 0.0
+    far &= grid.c > 0.0
     iteration = judge.iteration_error.max(axis=1) + ahead.iteration_error.max(axis=1)
     by_phase = np.max(coarse.phase_error(ahead), axis=1)
     residual = np.maximum(np.max(residuals, axis=1) + iteration, by_phase)
-    taken = 2 / frame.step(nodes, ahead.increment)[..., 0]
-    share = np.where(far, frame.x_of(frame.widths[:, None] / 2)[:, 0] / frame.x_ends, SPLIT)
+    taken = 2 / grid.step(nodes, ahead.increment)[..., 0]
+    share = np.where(far, grid.x_of(grid.widths[:, None] / 2)[:, 0] / grid.x_ends, SPLIT)
     short = _cycles_if_cut(taken, share) < size.panel_nodes
     cost = Cost(ahead.increment.size, ahead.evaluations)
     cost = cost.plus(judge.increment.size, judge.evaluations)

@@ -48,7 +48,7 @@ TAIL_SHARE = 1 / 12
 
 NEARLY = 0.9  # of the limit: a cycle that gets so far leads beyond
 
-Rows = slice | IntArray
+Selection = slice | IntArray
 
 
 class Settings(NamedTuple):
@@ -96,7 +96,7 @@ class Equation(Protocol):
     def breakpoints(self) -> Sequence[FloatArray]:
         """Return the phases from 0 to 1 of each scene between which the forcing is smooth."""
 
-    def take(self, rows: Rows) -> Equation:
+    def take(self, rows: Selection) -> Equation:
         """Return some of the scenes, each perhaps several times."""
 
     def forcing(self, phases: FloatArray) -> FloatArray:
@@ -137,7 +137,7 @@ class PeriodMap(NamedTuple):
             return False
         return intervals >= MOST_CUTS * max(map(len, self.equation.breakpoints))
 
-    def take(self, rows: Rows) -> PeriodMap:
+    def take(self, rows: Selection) -> PeriodMap:
         """Return some of the scenes, each perhaps several times; one scene broadcasts."""
         if self.scenes == 1:
             return self

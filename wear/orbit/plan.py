@@ -16,6 +16,7 @@ from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, integral, product
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
+from wear.orbit.iterates import nonzero
 from wear.orbit.panels import FASTER, SPLIT, Layout
 from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period_map
 from wear.orbit.problem import Problem, Request
@@ -24,7 +25,7 @@ LEAST = 200.0  # the last panel reaches this count at least: panels are long aga
 MARGIN = 4.0  # of the look ahead, in cycles
 LONGEST, STEPS = 36.0, 60  # of the look ahead, in ln(1 + u/scale)
 AHEAD_NODES = 10  # on each interval of phase, to look ahead
-FRAME_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to infinity
+COORDINATE_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to infinity
 SMALL = 0.65  # of the state and its scale: a cycle that adds more changes the rate much
 SHARP = 0.3  # change of the logarithm of the density within a cycle
 MOST_LOG = 650.0  # of a density: its exponential is a number
@@ -45,8 +46,7 @@ def look_ahead(problem: Problem, request: Request) -> FloatArray:
         added[which] = maps.increment_without_feedback(u[which])
     density = -np.log(np.log1p(added / (u + scale[:, None])) + TINY)
     # Between two points the density is taken as exponential in y = ln(u + scale).
-    rise = np.diff(density, axis=1)
-    rise = np.where(np.abs(rise) < 1e-6, 1e-6, rise)
+    rise = nonzero(np.diff(density, axis=1))
     first = np.exp(density[:, :-1]) * (longest / STEPS) / rise
     counts = np.cumsum(first * np.expm1(rise), axis=1)
     wanted = MARGIN * np.maximum(request.cycles, LEAST)
@@ -70,7 +70,7 @@ class PanelPlan(NamedTuple):
     unresolved: BoolArray
 
 
-def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings) -> PanelPlan:
+def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -> PanelPlan:
     """Return a plan of panels, cut until their coefficients resolve the density without feedback,
     and until none ends at a rate at which it would hold few cycles: its last cycle leads beyond
     it."""
@@ -80,13 +80,13 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
     number = 0
     while True:
         some = maps.take(scene)
-        rate = some.rate_without_feedback(frame.states(nodes))
+        rate = some.rate_without_feedback(grid.states(nodes))
         frozen = integral(rate, some.over)
-        violent = frozen[:, 0] > SMALL * (frame.starts + frame.c / FRAME_SCALE)
+        violent = frozen[:, 0] > SMALL * (grid.starts + grid.c / COORDINATE_SCALE)
         density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
         # Less a constant, whose rounding would look like a tail.
         tail = np.max(np.abs(product(density - density[:, :1], analysis)), axis=1)
-        step = frame.step(nodes, np.exp(-density))[..., 0]
+        step = grid.step(nodes, np.exp(-density))[..., 0]
         taken = 2 / step
         cycles, at_end = np.mean(taken, axis=1), FASTER * taken[:, -1]
         sharp = abel.change_in_a_cycle(density, step) > SHARP
@@ -96,14 +96,14 @@ def planned(maps: PeriodMap, scene: IntArray, frame: abel.Frame, size: Settings)
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
         coarse = unresolved(rate, some.over, size.phase_tolerance)
-        done.append(take(PanelPlan(Layout(scene, frame, kept), cycles, coarse), ~cut))
+        done.append(take(PanelPlan(Layout(scene, grid, kept), cycles, coarse), ~cut))
         if not cut.any():
             break
-        frame, scene = stacked(take(frame, cut).cut(SPLIT)), np.tile(scene[cut], 2)
+        grid, scene = stacked(take(grid, cut).cut(SPLIT)), np.tile(scene[cut], 2)
     if len(done) == 1:
         return done[0]
     plan = stacked(done)
-    return take(plan, np.lexsort((plan.layout.frame.starts, plan.layout.scene)))
+    return take(plan, np.lexsort((plan.layout.grid.starts, plan.layout.scene)))
 
 
 def enough_before(share: FloatArray, scene: IntArray) -> BoolArray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import take
-from wear.orbit.period_map import Equation, Rows
+from wear.orbit.period_map import Equation, Selection
 
 
 class Cost(NamedTuple):
@@ -38,7 +38,7 @@ class Problem(Equation, Protocol):
     def breakpoints(self) -> list[FloatArray]:
         """Return the phases, from 0 to 1, between which the rate of each scene is smooth."""
 
-    def take(self, rows: Rows) -> Problem: ...
+    def take(self, rows: Selection) -> Problem: ...
 
     def roundoff(self, u: FloatArray) -> FloatArray:
         """Return the relative error of the rate by rounding at states u (s, k), at most."""

@@ -18,7 +18,7 @@ import numpy as np
 
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
-from wear.orbit.jobs import Jobs
+from wear.orbit.batches import Batches
 from wear.orbit.problem import Cost, Problem, Request
 
 MOST_SEGMENTS = 40
@@ -150,7 +150,7 @@ def orbit(
     for _ in range(MOST_SEGMENTS):
         following = []
         for which, request in todo:
-            work = Jobs(problem.take(which), request, rtol, keep)
+            work = Batches(problem.take(which), request, rtol, keep)
             for rows, iterates in work.counts():
                 scenes, remaining = which[rows], request.take(rows)
                 begins = cycles[scenes] - remaining.cycles

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from wear.numerics.gauss import FloatArray, gauss
-from wear.orbit.abel import Panels
+from wear.orbit.abel import Density
 
 INTERVALS, NODES = 32, 24  # of the integral of the rest
 SMALL, TERMS = 0.5, 14  # of a series
@@ -29,12 +29,12 @@ class SteadyState(NamedTuple):
     offset: float
 
 
-def steady_state(panel: Panels, cycles: float) -> SteadyState:
+def steady_state(panel: Density, cycles: float) -> SteadyState:
     """Return the steady state from one `panel` that all but reaches infinity, at the start of which
     n is `cycles`."""
-    frame, series = panel.frame, panel.series[0]
-    start, length = float(frame.starts[0]), float(frame.starts[0] + frame.c[0])
-    per_x = 2 / frame.x_ends[0]
+    grid, series = panel.grid, panel.series[0]
+    start, length = float(grid.starts[0]), float(grid.starts[0] + grid.c[0])
+    per_x = 2 / grid.x_ends[0]
     infinity = per_x - 1  # in t
     level = float(chebyshev.chebval(infinity, series))
     first = _divided(series, infinity)  # (S(x) - S(1))/(t - t(1))

@@ -28,9 +28,9 @@ from wear.numerics.gauss import FloatArray, IntArray, gauss, integral, running_i
 from wear.numerics.initial_value import StoppedError
 from wear.numerics.rows import take
 from wear.orbit import abel
-from wear.orbit.iterates import NODES, Cells, Iterates, cell_of
+from wear.orbit.iterates import NODES, CountTable, Iterates, cell_of
 from wear.orbit.panels import CHECKS, PanelCycles, near_checks
-from wear.orbit.period_map import PeriodMap, Rows, Settings, period_map, settings
+from wear.orbit.period_map import PeriodMap, Selection, Settings, period_map, settings
 from wear.orbit.problem import Problem
 from wear.orbit.segments import Orbit
 from wear.orbit.transient import SAFETY
@@ -46,7 +46,7 @@ class ParametrisedProblem(Problem, Protocol):
     def parameters(self) -> int:
         """Return the number of parameters."""
 
-    def take(self, rows: Rows) -> ParametrisedProblem: ...
+    def take(self, rows: Selection) -> ParametrisedProblem: ...
 
     def by_parameters(
         self, u: FloatArray, phases: FloatArray, forcing: FloatArray, weights: FloatArray
@@ -163,10 +163,10 @@ def _in_segment(
     derivative, missed = early[rows, index], early_error[rows, index]
     added = np.diff(iterates.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
-    if iterates.cells is not None:
+    if iterates.table is not None:
         sums = _on_panels(maps, iterates, size, early[:, -1], early_error[:, -1])
         late = cycles > number if number else np.full(cycles.shape, True)
-        first = iterates.cells.u.reshape(len(u), -1)[:, :1]
+        first = iterates.table.u.reshape(len(u), -1)[:, :1]
         far = after_on_cells(iterates, sums, np.maximum(cycles, number), np.maximum(u, first))
         derivative = np.where(late[..., None], far[0], derivative)
         missed = np.where(late[..., None], far[1], missed)
@@ -242,7 +242,7 @@ def _on_panels(
     start_error: FloatArray,
 ) -> Sums:
     """Return S on the cells of a count, from du/dp where they start."""
-    panels = iterates.panels
+    panels = iterates.density
     assert panels is not None
     scenes = len(start)
     some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
@@ -263,7 +263,7 @@ def sums_on_cells(
 ) -> Sums:
     """Return S on the cells of a count, from du/dp (s, parameters) where they start, its error, and
     the cycles from the nodes of panels; those from the CHECKS, with a finer map, are to judge."""
-    panels, table = iterates.panels, iterates.cells
+    panels, table = iterates.density, iterates.table
     assert panels is not None
     assert table is not None
     series = abel.sum_per_cycle(panels, nodes)
@@ -274,13 +274,13 @@ def sums_on_cells(
     gain = np.einsum("cg,cgk->ck", density, rates)
     size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
     panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
-    frame, ends = take(panels.frame, panel), np.column_stack([table.u, table.ends])
-    t = frame.positions(ends)
+    grid, ends = take(panels.grid, panel), np.column_stack([table.u, table.ends])
+    t = grid.positions(ends)
     worst = near_checks(residual[panel], t).max(axis=1)
     # It is the derivative of a small residual along the orbit, whose sum over many cycles is small.
-    of_density = near_checks(of_density[panel], t).max(axis=1) * np.minimum(table.gain, 1.0)
-    of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.gain[:, None]
-    lost = SAFETY * (worst * table.gain[:, None] + of_count * size_of)
+    of_density = near_checks(of_density[panel], t).max(axis=1) * np.minimum(table.number, 1.0)
+    of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.number[:, None]
+    lost = SAFETY * (worst * table.number[:, None] + of_count * size_of)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
     shape = (len(start), -1, start.shape[1])
     sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
@@ -291,16 +291,16 @@ def sums_on_cells(
 
 
 def _added(
-    maps: PeriodMap, panels: abel.Panels, t: FloatArray, run: PanelCycles
+    maps: PeriodMap, panels: abel.Density, t: FloatArray, run: PanelCycles
 ) -> abel.SumIncrements:
     """Return the increments of the cycles `run` from the positions `t` (n,) of each panel."""
-    derivatives = map_derivatives(maps, panels.frame.states(t), run)
+    derivatives = map_derivatives(maps, panels.grid.states(t), run)
     return abel.SumIncrements(run.increment, derivatives.by_parameters, derivatives.multiplier)
 
 
 def _at_cells(
-    panels: abel.Panels,
-    table: Cells,
+    panels: abel.Density,
+    table: CountTable,
     series: FloatArray,
     x: FloatArray,
     cell: IntArray | None = None,
@@ -314,7 +314,7 @@ def _at_cells(
     offset, length = table.offset[cell, None], table.length[cell, None]
     y = length * x
     own = take(panels, panel)
-    t = own.frame.positions(table.u[cell, None] + offset * np.expm1(y))
+    t = own.grid.positions(table.u[cell, None] + offset * np.expm1(y))
     basis = chebyshev_values(t, panels.series.shape[1])
     level, shape = abel.level_and_shape(own.series)
     density = level * offset * length * np.exp((basis @ shape[..., None])[..., 0] + y)
@@ -326,7 +326,7 @@ def after_on_cells(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, which lead to the
     `states` (s, c), its error, and du/dn."""
-    table, panels = iterates.cells, iterates.panels
+    table, panels = iterates.table, iterates.density
     assert table is not None
     assert panels is not None
     scenes, of_scene = len(cycles), len(table.u) // len(cycles)
@@ -352,7 +352,7 @@ def after_on_cells(
     missed = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
     # The density and the count themselves are out, where the state is.
     steps = np.diff(iterates.count_error, axis=1)
-    own = SAFETY * (steps.reshape(-1)[flat] / table.gain[flat]).reshape(*cycles.shape, 1)
+    own = SAFETY * (steps.reshape(-1)[flat] / table.number[flat]).reshape(*cycles.shape, 1)
     count = iterates.count_error[rows, cell + 1][..., None]
     missed = missed + (own + bend * count + ROUNDOFF) * np.abs(total) + onward * count
     pace = pace.reshape(*cycles.shape, 1)

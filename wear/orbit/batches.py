@@ -1,8 +1,8 @@
-"""The counts of one segment of many scenes, in jobs of scenes that go together.
+"""The counts of one segment of many scenes, in batches of scenes that go together.
 
-A job has scenes with meshes of phase of one size and equally many integrated cycles. Solving it
+A batch has scenes with meshes of phase of one size and equally many integrated cycles. Solving it
 shows which scenes need a finer mesh, shorter panels or more integrated cycles; those that need the
-same form a new job, together with those of other jobs.
+same form a new batch, together with those of other batches.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
-from wear.orbit.iterates import Cells, Iterates, cells
+from wear.orbit.iterates import CountTable, Iterates, count_table
 from wear.orbit.panels import Layout, PanelSolution, adapt
 from wear.orbit.period_map import PeriodMap, period_map, resolved, settings
 from wear.orbit.plan import (
-    FRAME_SCALE,
+    COORDINATE_SCALE,
     LEAST,
     MARGIN,
     before_the_first,
@@ -37,7 +37,7 @@ MOST_EVALUATIONS = 20_000_000  # of a scene: then the error estimate exceeds the
 NEARLY_THERE = 10.0  # times the residual that is asked for
 
 
-class Job(NamedTuple):
+class Batch(NamedTuple):
     """Scenes `which` with their period maps and transient; the number of its cycles that are
     `needed`; the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the initial
     panels, if any are known."""
@@ -52,15 +52,15 @@ class Job(NamedTuple):
 
     @property
     def key(self) -> tuple[int, int, int, bool]:
-        """Return the common properties of jobs that can be joined."""
+        """Return the common properties of batches that can be joined."""
         intervals = self.maps.over.lengths.shape[-1]
         return (intervals, self.transient.cycles, self.needed, self.layout is None)
 
-    def take(self, rows: IntArray, needed: int) -> Job:
-        """Return the job of some of the scenes, which need so many cycles."""
+    def take(self, rows: IntArray, needed: int) -> Batch:
+        """Return the batch of some of the scenes, which need so many cycles."""
         if len(rows) == len(self.which):
             return self._replace(needed=needed, layout=None)
-        return Job(
+        return Batch(
             self.which[rows],
             self.maps.take(rows),
             take(self.transient, rows),
@@ -70,8 +70,8 @@ class Job(NamedTuple):
         )
 
 
-class Jobs:
-    """The counts of one segment of some scenes, found in jobs of scenes that go together."""
+class Batches:
+    """The counts of one segment of some scenes, found in batches of scenes that go together."""
 
     def __init__(self, problem: Problem, request: Request, rtol: float, keep: bool) -> None:
         self.problem, self.request, self.rtol, self.keep = problem, request, rtol, keep
@@ -84,126 +84,128 @@ class Jobs:
         self.samples = request.start[:, None] + begin[:, None] * np.expm1(way[:, None] * SAMPLES)
         floor = np.max(problem.roundoff(self.samples), axis=1)
         self.tolerance = np.maximum(size.residual_tolerance, floor)
-        self.todo: dict[tuple[int, int, int, bool], list[Job]] = {}
+        self.todo: dict[tuple[int, int, int, bool], list[Batch]] = {}
 
     def counts(self) -> Iterator[tuple[IntArray, Iterates]]:
         """Return groups of scenes with their counts."""
         problem, start = self.problem, self.request.start
         for which, maps in resolved(problem, problem.breakpoints, self.samples, self.size):
             zero, infinite = np.zeros(len(which)), np.full(len(which), np.inf)
-            job = Job(which, maps, no_cycle(start[which]), 0, infinite, zero)
-            self._add(job, np.arange(len(which)), 0)
+            batch = Batch(which, maps, no_cycle(start[which]), 0, infinite, zero)
+            self._add(batch, np.arange(len(which)), 0)
         while self.todo:
-            jobs = self.todo.pop(min(self.todo))
-            job = jobs[0] if len(jobs) == 1 else self._joined(jobs)
-            if job.transient.cycles < job.needed:
-                yield from self._extended(job)
+            batches = self.todo.pop(min(self.todo))
+            batch = batches[0] if len(batches) == 1 else self._joined(batches)
+            if batch.transient.cycles < batch.needed:
+                yield from self._extended(batch)
             else:
-                yield from self._on_panels(job)
+                yield from self._on_panels(batch)
 
-    def _add(self, job: Job, rows: IntArray, needed: int, **changes: Any) -> None:
+    def _add(self, batch: Batch, rows: IntArray, needed: int, **changes: Any) -> None:
         """Queue some of the scenes, if there are any, for the time when they have so many
         cycles."""
         if len(rows):
-            some = job.take(rows, needed)._replace(**changes)
+            some = batch.take(rows, needed)._replace(**changes)
             self.todo.setdefault(some.key, []).append(some)
 
-    def _joined(self, jobs: list[Job]) -> Job:
-        """Return jobs with the same key as one."""
-        edges = [_edges(job.maps, np.arange(len(job.which))) for job in jobs]
-        which, first = np.concatenate([job.which for job in jobs]), jobs[0]
+    def _joined(self, batches: list[Batch]) -> Batch:
+        """Return batches with the same key as one."""
+        edges = [_edges(batch.maps, np.arange(len(batch.which))) for batch in batches]
+        which, first = np.concatenate([batch.which for batch in batches]), batches[0]
         m, tolerance = len(first.maps.over.rule.nodes), first.maps.tolerance
         maps = period_map(self.problem.take(which), np.concatenate(edges), m, tolerance)
-        offsets = np.cumsum([0, *(len(job.which) for job in jobs[:-1])])
+        offsets = np.cumsum([0, *(len(batch.which) for batch in batches[:-1])])
         layouts = [
-            job.layout._replace(scene=job.layout.scene + at)
-            for job, at in zip(jobs, offsets, strict=True)
-            if job.layout is not None
+            batch.layout._replace(scene=batch.layout.scene + at)
+            for batch, at in zip(batches, offsets, strict=True)
+            if batch.layout is not None
         ]
-        return Job(
+        return Batch(
             which,
             maps,
-            stacked([job.transient for job in jobs]),
+            stacked([batch.transient for batch in batches]),
             first.needed,
-            np.concatenate([job.worst for job in jobs]),
-            np.concatenate([job.spent for job in jobs]),
+            np.concatenate([batch.worst for batch in batches]),
+            np.concatenate([batch.spent for batch in batches]),
             stacked(layouts) if layouts else None,
         )
 
-    def _extended(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
+    def _extended(self, batch: Batch) -> Iterator[tuple[IntArray, Iterates]]:
         """Integrate more cycles; yield the scenes that end with them."""
-        limit, tolerance = self.limit[job.which], self.tolerance[job.which]
-        for more in extended(job.maps, job.transient, limit, self.size, tolerance):
-            which = job.which[more.which]
-            spent = job.spent[more.which] + more.cost.rhs_evaluations / len(which)
+        limit, tolerance = self.limit[batch.which], self.tolerance[batch.which]
+        for more in extended(batch.maps, batch.transient, limit, self.size, tolerance):
+            which = batch.which[more.which]
+            spent = batch.spent[more.which] + more.cost.rhs_evaluations / len(which)
             self.cost = self.cost.plus(*more.cost)
-            longer = Job(which, more.maps, more.transient, job.needed, job.worst[more.which], spent)
+            longer = Batch(
+                which, more.maps, more.transient, batch.needed, batch.worst[more.which], spent
+            )
             late = self.request.late and more.transient.cycles >= BLOCK
             ended = np.full(len(which), late)
-            if more.transient.cycles > job.transient.cycles:
+            if more.transient.cycles > batch.transient.cycles:
                 last = more.transient.last
                 ended |= more.transient.cycles >= self.request.cycles[which]
                 ended |= ~(last < self.limit[which]) | ~(more.transient.last_increment > 0)
             if ended.any():
                 yield self._without_panels(longer, np.flatnonzero(ended))
-            self._add(longer, np.flatnonzero(~ended), job.needed)
+            self._add(longer, np.flatnonzero(~ended), batch.needed)
 
-    def _on_panels(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
+    def _on_panels(self, batch: Batch) -> Iterator[tuple[IntArray, Iterates]]:
         """Solve Abel's equation on panels; yield the scenes that are accurate, and queue the others
         for refinement."""
-        if job.layout is None:
-            yield from self._planned(job)
+        if batch.layout is None:
+            yield from self._planned(batch)
             return
-        which, number, tolerance = job.which, job.transient.cycles, self.tolerance[job.which]
-        fine = job.maps.finer(self.size)
-        adapted = adapt(job.maps, fine, job.layout, self.size, tolerance, self.keep)
+        which, number, tolerance = batch.which, batch.transient.cycles, self.tolerance[batch.which]
+        fine = batch.maps.finer(self.size)
+        adapted = adapt(batch.maps, fine, batch.layout, self.size, tolerance, self.keep)
         self.cost = self.cost.plus(*adapted.cost)
-        spent = job.spent + adapted.cost.rhs_evaluations / len(which)
+        spent = batch.spent + adapted.cost.rhs_evaluations / len(which)
         scene, residual = adapted.panels.scene, adapted.panels.residual
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
         marked, good = adapted.marked.any(axis=1), worst <= tolerance
-        counts = list(self._counted(job, adapted.panels)) if number == 0 else []
+        counts = list(self._counted(batch, adapted.panels)) if number == 0 else []
         for rows, iterates in counts:
             good[rows] &= iterates.largest_error <= self.rtol
         # A residual of rounding errors does not fall with refinement.
-        accepted = (job.worst <= NEARLY_THERE * tolerance) & ~(worst < job.worst / 2)
+        accepted = (batch.worst <= NEARLY_THERE * tolerance) & ~(worst < batch.worst / 2)
         accepted &= number > 0
-        accepted |= (spent > MOST_EVALUATIONS) | (marked & job.maps.full)
+        accepted |= (spent > MOST_EVALUATIONS) | (marked & batch.maps.full)
         accepted |= self.request.late and number > 0
         accepted |= good & ~marked
         finer = np.flatnonzero(marked & ~accepted)
         for group, maps in (
-            job.maps.take(finer).refined(adapted.marked[finer]) if len(finer) else ()
+            batch.maps.take(finer).refined(adapted.marked[finer]) if len(finer) else ()
         ):
             rows = finer[group]
-            layout = _of(Layout(adapted.panels.scene, adapted.panels.density.frame), rows)
+            layout = _of(Layout(adapted.panels.scene, adapted.panels.density.grid), rows)
             state = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
-            self._add(job, rows, number, maps=maps, **state)
+            self._add(batch, rows, number, maps=maps, **state)
         # Panels that can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
-        self._add(job, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
-        for rows, iterates in counts or self._counted(job, take(adapted.panels, accepted[scene])):
+        self._add(batch, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
+        for rows, iterates in counts or self._counted(batch, take(adapted.panels, accepted[scene])):
             kept = np.flatnonzero(accepted[rows])
             if len(kept):
                 yield which[rows[kept]], iterates if len(kept) == len(rows) else iterates.take(kept)
 
-    def _frame(self, job: Job) -> abel.Frame:
+    def _grid(self, batch: Batch) -> abel.Grid:
         """Return one panel for each scene, over the range that it must cover."""
-        last, limit = job.transient.last, self.limit[job.which]
-        ahead = 10 * BLOCK * job.transient.last_increment if job.transient.cycles else 0.0
-        end = np.minimum(np.maximum(self.end[job.which], last + ahead), limit)
-        return abel.frame(FRAME_SCALE * self.scale[job.which], last, end)
+        last, limit = batch.transient.last, self.limit[batch.which]
+        ahead = 10 * BLOCK * batch.transient.last_increment if batch.transient.cycles else 0.0
+        end = np.minimum(np.maximum(self.end[batch.which], last + ahead), limit)
+        return abel.grid(COORDINATE_SCALE * self.scale[batch.which], last, end)
 
-    def _planned(self, job: Job) -> Iterator[tuple[IntArray, Iterates]]:
+    def _planned(self, batch: Batch) -> Iterator[tuple[IntArray, Iterates]]:
         """Lay out panels that hold enough cycles, as far as possible; scenes whose first panels do
         not hold enough are queued for more integrated cycles, and those whose phase is not resolved
         on their panels for a finer mesh."""
-        number = job.transient.cycles
-        scenes = np.arange(len(job.which))
-        plan = planned(job.maps, scenes, self._frame(job), self.size)
+        number = batch.transient.cycles
+        scenes = np.arange(len(batch.which))
+        plan = planned(batch.maps, scenes, self._grid(batch), self.size)
         # Far beyond the cycles asked for the rate may vanish altogether: there is no density.
-        wanted = MARGIN * np.maximum(self.request.cycles[job.which], LEAST)
+        wanted = MARGIN * np.maximum(self.request.cycles[batch.which], LEAST)
         share = plan.cycles / wanted[plan.layout.scene]
         plan = take(plan, ~enough_before(share, plan.layout.scene))
         scene = plan.layout.scene
@@ -216,25 +218,25 @@ class Jobs:
         ready = all_usable | (cycles > MOST_FIRST - number)
         over = ~ready & ((number >= MOST_FIRST) | (self.request.late and number > 0))
         if over.any():
-            yield self._without_panels(job, np.flatnonzero(over))
-        self._add(job, np.flatnonzero(~ready & ~over), number + BLOCK)
+            yield self._without_panels(batch, np.flatnonzero(over))
+        self._add(batch, np.flatnonzero(~ready & ~over), number + BLOCK)
         # Pulses may be narrower there than where the mesh was tried.
         marked = np.zeros((len(scenes), plan.unresolved.shape[1]), dtype=bool)
         np.logical_or.at(marked, scene[usable], plan.unresolved[usable])
-        marked &= ready[:, None] & (not job.maps.full)
+        marked &= ready[:, None] & (not batch.maps.full)
         finer = np.flatnonzero(marked.any(axis=1))
-        for group, maps in job.maps.take(finer).refined(marked[finer]) if len(finer) else ():
-            self._add(job, finer[group], number, maps=maps)
+        for group, maps in batch.maps.take(finer).refined(marked[finer]) if len(finer) else ():
+            self._add(batch, finer[group], number, maps=maps)
         rows = np.flatnonzero(ready & ~marked.any(axis=1))
-        self._add(job, rows, number, layout=_of(take(plan.layout, usable), rows))
+        self._add(batch, rows, number, layout=_of(take(plan.layout, usable), rows))
 
-    def _without_panels(self, job: Job, rows: IntArray) -> tuple[IntArray, Iterates]:
+    def _without_panels(self, batch: Batch, rows: IntArray) -> tuple[IntArray, Iterates]:
         """Return the integrated cycles alone."""
-        which, transient = job.which[rows], take(job.transient, rows)
+        which, transient = batch.which[rows], take(batch.transient, rows)
         error = self._transient_error(which, transient)
         none = np.empty((len(rows), 0))
         limit = self.limit[which]
-        edges = _edges(job.maps, rows)
+        edges = _edges(batch.maps, rows)
         return which, Iterates(transient.states, error, None, None, none, limit, edges)
 
     def _transient_error(self, which: IntArray, transient: Transient) -> FloatArray:
@@ -245,16 +247,16 @@ class Jobs:
         start_error = self.request.start_error[which]
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 
-    def _counted(self, job: Job, panels: PanelSolution) -> Iterator[tuple[IntArray, Iterates]]:
-        """Return the counts on panels, those of scenes `rows` of the job with as many panels
+    def _counted(self, batch: Batch, panels: PanelSolution) -> Iterator[tuple[IntArray, Iterates]]:
+        """Return the counts on panels, those of scenes `rows` of the batch with as many panels
         together."""
         scenes, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
         for number in np.unique(counts).tolist():
             rows = scenes[counts == number]
-            which, transient = job.which[rows], take(job.transient, rows)
+            which, transient = batch.which[rows], take(batch.transient, rows)
             error = self._transient_error(which, transient)
             some = take(panels, counts[inverse] == number)
-            table = cells(some.density, float(transient.cycles), len(rows))
+            table = count_table(some.density, float(transient.cycles), len(rows))
             begins, ends = (x.reshape(len(rows), -1) for x in (table.u, table.ends))
             u = np.concatenate([begins, ends[:, -1:]], axis=1)
             rounding = self.problem.take(which).roundoff(u)
@@ -267,22 +269,22 @@ class Jobs:
                 some.density,
                 of_count,
                 self.limit[which],
-                _edges(job.maps, rows),
+                _edges(batch.maps, rows),
                 some.cycles,
             )
             yield rows, iterates
 
 
 def count_error(
-    panels: abel.Panels, residual: FloatArray, table: Cells, rounding: FloatArray, scenes: int
+    panels: abel.Density, residual: FloatArray, table: CountTable, rounding: FloatArray, scenes: int
 ) -> FloatArray:
     """Return the error (scenes, cells + 1) of n where each cell starts and where the last ends: by
     the `residual` of each panel, by the matching of panels, and by `rounding` of the rate
     (scenes, cells + 1)."""
     shape, number = (scenes, -1), len(residual)
-    gain = table.gain.reshape(shape)
-    of_panel = gain.size // number
-    error = SAFETY * np.repeat(residual, of_panel).reshape(shape) * gain
+    in_cell = table.number.reshape(shape)
+    of_panel = in_cell.size // number
+    error = SAFETY * np.repeat(residual, of_panel).reshape(shape) * in_cell
     error += table.truncation.reshape(shape)
     per_scene = number // scenes
     for k in range(1, per_scene):
@@ -292,7 +294,7 @@ def count_error(
         error[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
     terms = ROUNDOFF * np.sum(np.abs(panels.series), axis=1)  # of ln(density)
     of_density = np.repeat(terms, of_panel).reshape(shape)
-    error += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * gain
+    error += (np.maximum(rounding[:, 1:], rounding[:, :-1]) + of_density) * in_cell
     return np.concatenate([np.zeros((scenes, 1)), np.cumsum(error, axis=1)], axis=1)
 
 

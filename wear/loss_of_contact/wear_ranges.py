@@ -1,6 +1,6 @@
-"""Stretches of wear on which the increments are known, and the number of cycles on them.
+"""Ranges of wear on which the increments are known, and the number of cycles on them.
 
-The stretches of all scenes are sampled, solved and counted together, as arrays.
+The ranges of all scenes are sampled, solved and counted together, as arrays.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
-from wear.orbit.iterates import Cells, cell_of, cells, joined
+from wear.orbit.iterates import CountTable, cell_of, count_table, joined
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings
 
@@ -36,8 +36,8 @@ class AbelSolution(NamedTuple):
     """The solution of Abel's equation on `panels` of z, with its `residual` on each, the `table` of
     n(z) and the `series` of the increments; it reaches to the `limit_wear`, if there is one."""
 
-    table: Cells
-    panels: abel.Panels
+    table: CountTable
+    density: abel.Density
     residual: FloatArray
     series: IncrementSeries
     limit_wear: LimitWear | None
@@ -45,7 +45,7 @@ class AbelSolution(NamedTuple):
     @property
     def first(self) -> float:
         """Return the first z."""
-        return float(self.panels.frame.starts[0])
+        return float(self.density.grid.starts[0])
 
     @property
     def last(self) -> float:
@@ -53,8 +53,8 @@ class AbelSolution(NamedTuple):
         return float(self.table.ends[-1])
 
 
-class Stretch(NamedTuple):
-    """A stretch of wear on which the increments are known by their `series`, up to `end` in z; with
+class WearRange(NamedTuple):
+    """A range of wear on which the increments are known by their `series`, up to `end` in z; with
     the solution of Abel's equation, `abel`, if it takes many cycles."""
 
     series: IncrementSeries
@@ -69,7 +69,7 @@ def cycles_to_end(starts: Sequence[tuple[AbelSolution, float]]) -> list[tuple[fl
     tables = [count.table for count in counts]
     table, first = joined(tables), np.cumsum([0, *(len(own.u) for own in tables[:-1])])
     inside = [cell_of(own.u, at) for own, at in zip(tables, z, strict=True)]
-    begin = table.cycles_until(z, first + inside)
+    begin = table.cycles_at(z, first + inside)
     remaining = np.array([own.last_cycles for own in tables]) - begin
     to_limit = np.array([count.limit_wear is not None for count in counts])
     cycles = np.where(to_limit, np.ceil(remaining), np.floor(remaining))
@@ -78,18 +78,18 @@ def cycles_to_end(starts: Sequence[tuple[AbelSolution, float]]) -> list[tuple[fl
     return list(zip(cycles.tolist(), after.tolist(), strict=True))
 
 
-def alike(panels: Mapping[int, abel.Panels]) -> list[list[int]]:
+def alike(panels: Mapping[int, abel.Density]) -> list[list[int]]:
     """Return groups of the keys whose panels are of one kind, and equally many."""
     kinds: dict[object, list[int]] = {}
-    for i, (frame, _) in panels.items():
-        kinds.setdefault((frame.c.any(), len(frame.c)), []).append(i)
+    for i, (grid, _) in panels.items():
+        kinds.setdefault((grid.c.any(), len(grid.c)), []).append(i)
     return list(kinds.values())
 
 
-def stretches(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Stretch]:
-    """Return the stretches of some series, with their solutions of Abel's equation if cycles are
+def wear_ranges(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[WearRange]:
+    """Return the wear_ranges of some series, with their solutions of Abel's equation if cycles are
     many."""
-    found: dict[int, Stretch] = {}
+    found: dict[int, WearRange] = {}
     for shifted in (False, True):
         kind = [i for i, (each, _) in enumerate(known) if (each.coordinate.shift > 0.0) == shifted]
         for at in range(0, len(kind), TOGETHER):
@@ -98,8 +98,8 @@ def stretches(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Str
     return [found[i] for i in range(len(known))]
 
 
-def _together(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Stretch]:
-    """Return the stretches of series of one kind, all at once."""
+def _together(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[WearRange]:
+    """Return the wear_ranges of series of one kind, all at once."""
     every, size = [series for series, _ in known], known[0][1].size
     begin, end = np.array([series.domain.ends for series in every]).T
     samples, gains, calm = _samples(every, begin, end)
@@ -111,10 +111,10 @@ def _together(known: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[Str
     found = solved([every[i] for i in wanted], [edges for edges, _ in wanted.values()], size)
     solutions, counts = dict(zip(wanted, found, strict=True)), dict[int, AbelSolution]()
     for some in alike({i: panels for i, (panels, _) in solutions.items()}):
-        table = cells(stacked([solutions[i][0] for i in some]), scenes=len(some))
-        for i, own in zip(some, table.parts(len(some)), strict=True):
+        table = count_table(stacked([solutions[i][0] for i in some]), scenes=len(some))
+        for i, own in zip(some, table.of_each(len(some)), strict=True):
             counts[i] = AbelSolution(own, *solutions[i], every[i], wanted[i][1])
-    return [Stretch(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
+    return [WearRange(series, float(end[i]), counts.get(i)) for i, series in enumerate(every)]
 
 
 def _samples(
@@ -123,7 +123,7 @@ def _samples(
     """Return samples of z along each series (s, k), the approximate number of cycles between them
     (s, k - 1), and the samples at which the increments are small (s, k)."""
     shift = np.array([series.coordinate.shift for series in known])
-    whole = abel.frame(shift, begin, end)
+    whole = abel.grid(shift, begin, end)
     t = np.linspace(-1.0, 1.0, SAMPLES)
     samples = whole.states(t)
     lasts = (samples + shift[:, None]) / _steps(known, np.arange(len(known)), samples)
@@ -162,7 +162,7 @@ def _edges(
 
 def solved(
     known: Sequence[IncrementSeries], edges: Sequence[FloatArray], size: Settings
-) -> list[tuple[abel.Panels, FloatArray]]:
+) -> list[tuple[abel.Density, FloatArray]]:
     """Solve Abel's equation for some series on panels between values of z, cut where that is
     needed; return also the residual off the nodes. Panels at the beginning that hold too few cycles
     to be cut are left out: those cycles are taken one by one."""
@@ -172,24 +172,24 @@ def solved(
     coordinates = [(*series.coordinate,) for series in known]
     origin, ahead, shift = np.array(coordinates).T
     begins, ends = (np.concatenate([each[part] for each in edges]) for part in (_FIRST, _LAST))
-    frame = abel.frame(shift[of], begins, ends)
-    done: list[tuple[IntArray, abel.Panels, FloatArray, BoolArray]] = []
+    grid = abel.grid(shift[of], begins, ends)
+    done: list[tuple[IntArray, abel.Density, FloatArray, BoolArray]] = []
     for rounds in range(MOST_CUTS):
-        z = frame.states(np.append(chebyshev_nodes(m), CHECKS))
+        z = grid.states(np.append(chebyshev_nodes(m), CHECKS))
         steps = _steps(known, of, z)
-        panels = abel.solve(frame, steps[:, :m])
+        panels = abel.solve(grid, steps[:, :m])
         residual = np.max(np.abs(abel.residual(panels, CHECKS, steps[:, m:])), axis=1)
-        eased = np.where(ahead[of] > 0.0, np.clip(origin[of] * frame.starts, 1.0, EASED), 1.0)
+        eased = np.where(ahead[of] > 0.0, np.clip(origin[of] * grid.starts, 1.0, EASED), 1.0)
         coarse = ~(residual <= size.residual_tolerance * eased)
-        cycles = frame.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
+        cycles = grid.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
         short = cycles <= ENOUGH * m
         again = coarse & ~short & (rounds < MOST_CUTS - 1)
         done.append(take((of, panels, residual, coarse & short), ~again))
         if not again.any():
             break
-        frame, of = cut(take(frame, again)), np.tile(of[again], 2)
+        grid, of = cut(take(grid, again)), np.tile(of[again], 2)
     of, panels, residual, poor = stacked(done)
-    order = np.lexsort((panels.frame.starts, of))
+    order = np.lexsort((panels.grid.starts, of))
     rows = np.split(order, np.flatnonzero(np.diff(of[order])) + 1)
     # All of them are kept if all are poor.
     return [take((panels, residual), own[int(np.argmin(poor[own])) :]) for own in rows]

@@ -11,13 +11,13 @@ from wear.loss_of_contact.arrest import TabulatedIterates, UnresolvedIterates
 from wear.loss_of_contact.increments import IncrementSeries, relative_error
 from wear.loss_of_contact.plan import CountProblem
 from wear.loss_of_contact.roundoff import Roundoff, roundoff
-from wear.loss_of_contact.stretch import AbelSolution, alike
 from wear.loss_of_contact.switching import Cycles
+from wear.loss_of_contact.wear_ranges import AbelSolution, alike
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import IntArray
 from wear.numerics.rows import stacked
-from wear.orbit.iterates import Iterates, cells
-from wear.orbit.jobs import count_error
+from wear.orbit.batches import count_error
+from wear.orbit.iterates import Iterates, count_table
 from wear.orbit.transient import SAFETY
 
 
@@ -59,8 +59,8 @@ class CycleJump(NamedTuple):
     cycles: float
 
 
-Part = SingleCycles | CycleJump | UnresolvedIterates
-PartIterates = Iterates | TabulatedIterates | UnresolvedIterates
+CountPart = SingleCycles | CycleJump | UnresolvedIterates
+CountPartIterates = Iterates | TabulatedIterates | UnresolvedIterates
 
 
 def walked(series: IncrementSeries, wear: float, end: float, most: float) -> SingleCycles:
@@ -74,15 +74,15 @@ def walked(series: IncrementSeries, wear: float, end: float, most: float) -> Sin
 
 
 def with_error(
-    parts: Sequence[Part], scene: IntArray, problems: Sequence[CountProblem], cycles: Cycles
-) -> list[PartIterates]:
+    parts: Sequence[CountPart], scene: IntArray, problems: Sequence[CountProblem], cycles: Cycles
+) -> list[CountPartIterates]:
     """Return the iterates on parts of the counts of some scenes, with their estimated errors;
     `cycles` has one cycle of each scene."""
     single = {i: part for i, part in enumerate(parts) if isinstance(part, SingleCycles)}
     ends = [np.array(part.wear) for part in single.values()]
     rows = np.repeat(scene[list(single)], [len(wear) for wear in ends])
     rounding = roundoff(cycles.take(rows), ends)
-    found: dict[int, PartIterates] = {
+    found: dict[int, CountPartIterates] = {
         i: part for i, part in enumerate(parts) if isinstance(part, UnresolvedIterates)
     }
     found |= {
@@ -90,7 +90,7 @@ def with_error(
         for (i, part), here in zip(single.items(), rounding, strict=True)
     }
     counts = {i: part for i, part in enumerate(parts) if isinstance(part, CycleJump)}
-    for some in alike({i: part.on.panels for i, part in counts.items()}):
+    for some in alike({i: part.on.density for i, part in counts.items()}):
         limits = [problems[of].end for of in scene[some].tolist()]
         alone = _tabulated([counts[i] for i in some], cycles.take(scene[some]), limits)
         found |= zip(some, alone, strict=True)
@@ -104,24 +104,25 @@ def _tabulated(
     wear (mm) that limits it. The error is that of the increments, of Abel's equation, where panels
     meet, and by rounding."""
     every = [part.on for part in counts]
-    panels, residual = stacked([(on.panels, on.residual) for on in every])
-    table = cells(panels, scenes=len(every), start=np.array([part.z for part in counts]))
-    tables = table.parts(len(every))
+    panels, residual = stacked([(on.density, on.residual) for on in every])
+    table = count_table(panels, scenes=len(every), start=np.array([part.z for part in counts]))
+    tables = table.of_each(len(every))
     z = np.stack([own.bounds for own in tables])
     wear = [on.series.coordinate.wear(ends) for on, ends in zip(every, z, strict=True)]
     of = np.repeat(np.arange(len(every)), z.shape[1])
     rounding = roundoff(cycles.take(of), wear)
     rounded = np.stack([here.rate + here.contact for here in rounding])
     error = count_error(panels, residual, table, rounded, len(every))
-    gain = table.gain.reshape(len(every), -1)
     at_ends = relative_error([on.series for on in every], of, z.ravel()).reshape(z.shape)
-    misfit = SAFETY * np.maximum(at_ends[:, 1:], at_ends[:, :-1]) * gain
+    misfit = (
+        SAFETY * np.maximum(at_ends[:, 1:], at_ends[:, :-1]) * table.number.reshape(len(every), -1)
+    )
     error[:, 1:] += np.cumsum(misfit, axis=1)
     return [
         TabulatedIterates(
             on.series,
             own,
-            on.panels,
+            on.density,
             lost,
             on.limit_wear,
             np.array([limit]),
