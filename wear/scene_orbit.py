@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.gauss import FloatArray
+from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost
-from wear.orbit.segments import NEARLY, Orbit
+from wear.orbit.segments import Orbit
 
 STOPS = "wear stops for good in cycle {}"
 FADES = "wear approaches its limit; within rounding from cycle {} on"

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from tests.wear.reference_scenes import REFERENCE, reference_scene
 from wear import cycles as count
 from wear.binding import bind
-from wear.cycles import cycles_until, wear_after
+from wear.cycles import first_passage, wear_after
 from wear.load import Block, Blocks, Sine
 
 
@@ -39,5 +39,5 @@ def test_cycles_until_a_wear_across_blocks() -> None:
     blocks = Blocks((Block(load, 50), Block(Sine(8e-4, 0.03), 1000)))
     cycles = np.array([20.0, 50.0, 51.0, 550.0])
     wear = wear_after(model, blocks, cycles, 1e-11).u_c
-    found = cycles_until(model, blocks, np.append(wear, 1.0), 1e-11)
+    found = first_passage(model, blocks, np.append(wear, 1.0), 1e-11)
     assert found.cycles.tolist() == [*cycles.tolist(), np.inf]

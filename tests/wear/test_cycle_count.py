@@ -98,13 +98,13 @@ def test_cycles_until_a_wear_is_the_inverse(cycles):
     scene = reference_scene("S4")
     model, load = bind(scene), scene.periodic_load
     wear = counted(scene, np.array([float(cycles)]), 1e-12).u_c
-    found = count.cycles_until(model, load, wear, 1e-12)
+    found = count.first_passage(model, load, wear, 1e-12)
     assert abs(found.cycles[0] - cycles) <= 2e-12 * cycles
 
 
 def test_wear_that_is_never_reached_takes_for_ever():
     scene = reference_scene("S6")
-    found = count.cycles_until(bind(scene), scene.periodic_load, np.array([1e-5, 7e-3, 0.0]), 1e-9)
+    found = count.first_passage(bind(scene), scene.periodic_load, np.array([1e-5, 7e-3, 0.0]), 1e-9)
     assert found.cycles.tolist() == [1.0, np.inf, 0.0]
 
 

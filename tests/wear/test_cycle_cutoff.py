@@ -139,7 +139,7 @@ def test_cycles_until_a_wear_with_a_cutoff():
     model, load = bind(scene), scene.periodic_load
     wear = count.wear_after(model, load, np.array([7.0, 500.0]), 1e-11).u_c
     wanted = np.array([*wear, 0.002, 0.0021])
-    found = count.cycles_until(model, load, wanted, 1e-11)
+    found = count.first_passage(model, load, wanted, 1e-11)
     assert found.cycles.tolist() == [7.0, 500.0, 2045.0, np.inf]
 
 
@@ -197,7 +197,7 @@ def test_cycles_until_a_wear_that_fades():
     model = bind(with_load(load, 3e-6, 0.1))
     wear = count.wear_after(model, load, np.array([30.0, 60.0, 90.0]), 1e-11).u_c
     rest = count.wear_after(model, load, np.array([1e6]), 1e-11).u_c
-    found = count.cycles_until(model, load, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
+    found = count.first_passage(model, load, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
     assert found.cycles.tolist() == [30.0, 60.0, 90.0, np.inf]
 
 
@@ -283,5 +283,5 @@ def test_wear_that_hardly_changes_itself_is_counted_to_a_depth():
     """All the panels together are narrower than rounding."""
     numbers = {"bearing.wear_coefficient": 1e-30, "bearing.roughness_growth": 1e5}
     scene = load_scene("section4-cutoff").with_(numbers)
-    found = count.cycles_until(bind(scene), scene.periodic_load, np.array([1e-24, 1.0]), 1e-7)
+    found = count.first_passage(bind(scene), scene.periodic_load, np.array([1e-24, 1.0]), 1e-7)
     assert_allclose(found.cycles, [32221, np.inf], atol=1)

@@ -12,7 +12,7 @@ from tests.judges import honest
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import counted
 from wear.binding import bind
-from wear.cycles import cycles_until, sweep, wear_after
+from wear.cycles import first_passage, sweep, wear_after
 from wear.load import Block, Blocks, Constant, Harmonics, Sine
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
@@ -77,7 +77,7 @@ def lives_hold(of: Scene, load: Constant | Blocks, cycles: FloatArray, rtol: flo
     """Count the cycles to the wear after some cycles; return their errors."""
     model = bind(of)
     wear = wear_after(model, load, cycles, 1e-13).u_c
-    found = cycles_until(model, load, wear, rtol)
+    found = first_passage(model, load, wear, rtol)
     assert np.all(np.abs(found.cycles / cycles - 1) <= found.error + 1e-13)
     return found.error
 

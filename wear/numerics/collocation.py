@@ -39,6 +39,8 @@ GRAIN = 4 * ROUNDOFF  # of the state: the slope over a smaller step is all round
 MOST_ITERATIONS = 60
 PATIENCE = 8  # iterations that may diverge at first
 NOISE_AT_ENDS = 1e-12  # of a series extrapolated to the ends of its interval
+NOISE_IN_TAIL = 100 * ROUNDOFF  # of the largest Legendre coefficient: rounding in the last ones
+FEEDBACK = -1.0, 20.0  # between these a guess by an exponentially falling rate is of use
 
 
 class Tangent(NamedTuple):
@@ -50,11 +52,11 @@ class Tangent(NamedTuple):
 
     @property
     def end(self) -> FloatArray:
-        """Return the rate after the step, nearly."""
+        """Return the rate after the step, to first order."""
         return self.rate + self.slope * self.step
 
     def on(self, starts: slice) -> Tangent:
-        """Return the same for some of the starts (..., k, q, m)."""
+        """Return the tangent at some of the starts (..., k, q, m)."""
         return Tangent(*(array[..., starts, :, :] for array in self))
 
 
@@ -74,7 +76,7 @@ class Rates(Protocol):
 
 
 class SplittableRates(Rates, Protocol):
-    """Rates of scenes, each of which can be taken by itself, and each interval as well."""
+    """Rates of several scenes, to be taken scene by scene and interval by interval."""
 
     def take(self, rows: IntArray) -> SplittableRates: ...
 
@@ -82,9 +84,9 @@ class SplittableRates(Rates, Protocol):
 
 
 class InitialGuess(NamedTuple):
-    """An approximate solution: the `increment` at the nodes (..., k, q, m), and the `rate` (same
-    shape, per unit of time) at states that are less by `shift` (broadcasts) than they will be; the
-    expected `contraction` (..., k) of the error by the first step from it."""
+    """An approximate solution: the `increment` at the nodes (..., k, q, m); the `rate` (same shape,
+    per unit of time), evaluated at states smaller than these by `shift` (broadcasts); and the
+    expected `contraction` (..., k) of the error by the first step."""
 
     increment: FloatArray
     rate: FloatArray
@@ -120,18 +122,18 @@ def solve(
 ) -> CycleSolution:
     """Return the solution over the mesh from each start (scenes, k).
 
-    All intervals at once where the iteration converges, that is, where the state changes its own
-    rate moderately within the mesh; else one interval after the other.
+    All intervals are solved at once where the iteration converges, that is, where the state changes
+    its own rate moderately within the mesh; else one after the other.
     """
-    found = iterate(rates, starts, guess)
-    rows = np.flatnonzero(~found.converged)
+    run = iterate(rates, starts, guess)
+    rows = np.flatnonzero(~run.converged)
     if len(rows) == 0 or rates.over.lengths.shape[-1] == 1:
-        return found
-    again = _interval_by_interval(rates.take(rows), starts[rows])
-    for whole, part in zip(found, again, strict=True):
-        if isinstance(whole, np.ndarray):
-            whole[rows] = part
-    return found._replace(evaluations=found.evaluations + again.evaluations)
+        return run
+    rerun = _interval_by_interval(rates.take(rows), starts[rows])
+    for array, corrected in zip(run, rerun, strict=True):
+        if isinstance(array, np.ndarray):
+            array[rows] = corrected
+    return run._replace(evaluations=run.evaluations + rerun.evaluations)
 
 
 def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None) -> CycleSolution:
@@ -188,11 +190,10 @@ def iterate(rates: Rates, starts: FloatArray, guess: InitialGuess | None = None)
 
 
 def guess_without_feedback(starts: FloatArray, rate: FloatArray, over: Mesh) -> InitialGuess:
-    """Return a guess from the `rate` (..., k, q, m) that there would be at the states (..., k) of
-    the `starts`.
+    """Return a guess from the `rate` (..., k, q, m) with the state frozen at the `starts` (..., k).
 
-    If the rate fell by a factor e over the increment 1/a, the increment would be
-    ln(1 + a frozen)/a.
+    Where the rate falls by a factor e over the increment 1/a, the increment is ln(1 + a frozen)/a,
+    nearly frozen/(1 + a frozen/2).
     """
     frozen = running_integral(rate, over)
     ends = frozen[..., -1, -1]
@@ -203,7 +204,7 @@ def guess_without_feedback(starts: FloatArray, rate: FloatArray, over: Mesh) -> 
         feedback[..., 0], feedback[..., -1] = fall[..., 0], fall[..., -1]
         feedback *= ends
         feedback[~np.isfinite(feedback)] = 0.0
-        np.clip(feedback, -1.0, 20.0, out=feedback)
+        np.clip(feedback, *FEEDBACK, out=feedback)
     shape = (feedback / (2 * ends + TINY))[..., None, None]
     increment = frozen / (1.0 + shape * frozen)
     return InitialGuess(increment, rate, increment, feedback**2)
@@ -251,8 +252,7 @@ def truncation_error(rate: FloatArray, over: Mesh) -> FloatArray:
     largest = np.max(series, axis=0) + TINY
     last = np.max(series[-2:], axis=0)
     error: FloatArray = last**2 / largest * over.lengths
-    # Rounding of the largest coefficients looks like a tail: it is none.
-    error[largest * ROUNDOFF * 100 > last] = 0.0
+    error[largest * NOISE_IN_TAIL > last] = 0.0
     return error
 
 
@@ -260,8 +260,7 @@ def unresolved(rate: FloatArray, over: Mesh, tolerance: float | FloatArray) -> B
     """Return which intervals (..., q) do not resolve the rate (..., k, q, m) of every start to the
     `tolerance` (broadcasts against (..., k, q)), relative to its integral."""
     error = truncation_error(rate, over)
-    found: BoolArray = np.any(error > tolerance * integral(rate, over)[..., None], axis=-2)
-    return found
+    return np.asarray(np.any(error > tolerance * integral(rate, over)[..., None], axis=-2))
 
 
 def endpoint_defect(

@@ -5,7 +5,7 @@ Overview
     quadrature weights and the matrix that integrates the interpolant from 0 to each node.
 Key results
     gauss, radau        rules; Radau's last node is the end, which damps stiff transients
-    Mesh                a stretch of time cut into intervals, each with the nodes of one rule
+    Mesh                a span of time cut into intervals, each with the nodes of one rule
     running, integral   integrals over a mesh, up to each node or over all of it
 References
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, IV.5.
@@ -119,8 +119,8 @@ def mesh(edges: FloatArray, m: int) -> Mesh:
 def product(values: FloatArray, matrix: FloatArray) -> FloatArray:
     """Return `values` (..., m) times a `matrix` (m, n) or a vector (m,): (..., n) or (...).
 
-    In pieces that BLAS leaves to one thread: several would wait for each other longer than they
-    work.
+    Computed in pieces that BLAS leaves to one thread: several would wait for each other longer than
+    they work.
     """
     flat, most = values.reshape(-1, len(matrix)), max(1, ONE_THREAD // matrix.size)
     if len(flat) <= most:

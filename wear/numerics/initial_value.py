@@ -24,8 +24,8 @@ MOST_AT_ONCE = 1024  # intervals: the arrays of more fall out of the processor's
 MOST_CUT = 4 * MOST_AT_ONCE  # intervals and parts of intervals at once
 FIRST_AT_ONCE = 64
 MOST_ROUNDS = 12  # of cutting
-SHORTEST = 1e-12  # part of an interval, of the longest
-FEW_ITERATIONS = 6  # with so many, twice as many intervals are tried
+SHORTEST = 1e-12  # part of an interval, over the longest interval
+FEW_ITERATIONS = 6  # no more than these: then twice as many intervals are tried
 SAFETY = 3.0  # on measured discrepancies
 
 
@@ -63,7 +63,7 @@ class Rules(NamedTuple):
 class Endpoints(NamedTuple):
     """The solution at the ends of some intervals (k,), since the start: the `increment`, its
     `error`, the `derivative` of the state with respect to the initial state, the largest `response`
-    of the state to a relative error of the rate. Since the ends before: the number of right-hand
+    of the state to a relative error of the rate. Since the previous ends: the number of right-hand
     sides evaluated, and the `edges` (q + 1,) of the intervals taken."""
 
     increment: FloatArray
@@ -87,7 +87,7 @@ class Endpoints(NamedTuple):
         )
 
     def take(self, which: BoolArray) -> Endpoints:
-        """Return what there is at some of the ends."""
+        """Return the solution at some of the ends."""
         return Endpoints(
             self.increment[which],
             self.error[which],
@@ -99,19 +99,19 @@ class Endpoints(NamedTuple):
 
 
 class _Intervals(NamedTuple):
-    """Consecutive intervals: their `edges` (q + 1,), and which (q,) end where the state is asked
-    for."""
+    """Consecutive intervals: their `edges` (q + 1,), and whether the state at the end of each (q,)
+    is `asked` for."""
 
     edges: FloatArray
     asked: BoolArray
 
-    def parted(self, count: int) -> tuple[_Intervals, _Intervals]:
-        """Return the first of them, and the rest."""
+    def split(self, count: int) -> tuple[_Intervals, _Intervals]:
+        """Return the first `count` of them, and the rest."""
         first = _Intervals(self.edges[: count + 1], self.asked[:count])
         return first, _Intervals(self.edges[count:], self.asked[count:])
 
     def cut(self, marked: BoolArray) -> _Intervals:
-        """Return the same, with those that are `marked` (q,) cut in two."""
+        """Return the intervals with those `marked` (q,) cut in two."""
         middles = (self.edges[:-1] + self.edges[1:])[marked] / 2
         at = np.flatnonzero(marked)
         return _Intervals(np.insert(self.edges, at + 1, middles), np.insert(self.asked, at, False))
@@ -150,7 +150,7 @@ def integrate(
             raise TimeoutError
         now, state = todo.pop(), start + float(done.increment[-1])
         if len(now.asked) > size:
-            now, rest = now.parted(size)
+            now, rest = now.split(size)
             todo.append(rest)
         attempt = _attempt(sampled, now, state, rules, roundoff(state), limit)
         done = done._replace(evaluations=done.evaluations + attempt.evaluations)

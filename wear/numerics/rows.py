@@ -21,16 +21,15 @@ def take(record: Record, which: slice | IntArray | BoolArray) -> Record:
     >>> take((np.arange(3), "common"), np.array([2, 0]))
     (array([2, 0]), 'common')
     """
-
     if isinstance(which, np.ndarray) and which.dtype == bool and which.all():
         return record
 
-    def some(field: Any) -> Any:
+    def rows_of(field: Any) -> Any:
         if isinstance(field, tuple):
             return take(field, which)
         return field[which] if isinstance(field, np.ndarray) else field
 
-    return _made(record, map(some, record))
+    return _like(record, map(rows_of, record))
 
 
 def stacked(records: Sequence[Record]) -> Record:
@@ -48,9 +47,9 @@ def stacked(records: Sequence[Record]) -> Record:
             return stacked(fields)
         return np.concatenate(fields) if isinstance(fields[0], np.ndarray) else fields[0]
 
-    return _made(records[0], map(joined, zip(*records, strict=True)))
+    return _like(records[0], map(joined, zip(*records, strict=True)))
 
 
-def _made(like: Record, fields: Iterable[Any]) -> Record:
-    """Return a record of the same kind."""
-    return cast(Record, getattr(like, "_make", tuple)(fields))
+def _like(record: Record, fields: Iterable[Any]) -> Record:
+    """Return a record of the same kind with other fields."""
+    return cast(Record, getattr(record, "_make", tuple)(fields))

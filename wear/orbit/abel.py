@@ -8,8 +8,8 @@ Overview
 Key results
     Grid               panels of states and their coordinates
     solve              the density on them, from increments at their nodes
-    residual           the logarithm of what a cycle counts as, off the nodes
-    matching_defect    by how much the counts of neighbours differ where they meet
+    residual           ln(n(P(u)) - n(u)) off the nodes
+    matching_defect    the difference between the counts of neighbours where they meet
     sum_per_cycle      the sum of a function over the orbit, by the same equation linearised
 References
     M. Kuczma, B. Choczewski, R. Ger, *Iterative Functional Equations*, Cambridge University Press
@@ -28,10 +28,10 @@ from wear.numerics.gauss import FloatArray, Gauss, gauss, product
 
 ACROSS_A_CYCLE = 6  # Gauss nodes where the density changes by less than a factor 2 in a cycle
 ACROSS_A_FAST_CYCLE = 12  # good to rounding for a factor of 1e3
-ACROSS_JUDGED = 24  # more than in any solution, or both would miss the same
+ACROSS_JUDGED = 24  # more than in any solution, or both would have the same error
 GENTLE = 0.5  # change of ln(density) within a cycle for which the fewest nodes do
 MOST_ITERATIONS = 30
-STEADY = 0.3  # change of ln(density) after which Newton's method goes on with the same slope
+STEADY = 0.3  # change of ln(density) below which Newton's method keeps its matrix
 CONVERGED = 1e-13  # change of ln(density): the next one would be its square
 
 WHOLE = np.ones(1)  # a cycle
@@ -84,8 +84,8 @@ class Grid(NamedTuple):
         return result
 
     def step(self, t: FloatArray, increments: FloatArray, parts: FloatArray = WHOLE) -> FloatArray:
-        """Return how far in t the `parts` (n,) of a cycle lead from the positions `t` (k,),
-        (panels, k, n), if the cycle adds `increments` (panels, k)."""
+        """Return the steps (panels, k, n) in t from the positions `t` (k,) by the `parts` (n,) of a
+        cycle that adds `increments` (panels, k)."""
         left = np.exp(-self.y_at(t))
         part = (left * increments / (self.starts + self.c)[:, None])[..., None] * parts
         log = np.log1p(part)
@@ -114,7 +114,7 @@ class Density(NamedTuple):
 
 
 def grid(c: float | FloatArray, starts: FloatArray, ends: FloatArray) -> Grid:
-    """Return panels between two states each, with the scale c, one or one a panel."""
+    """Return panels between two states each, with a scale c for all or one for each."""
     c = np.broadcast_to(np.asarray(c, dtype=float), starts.shape)
     return Grid(c, starts, np.log1p((ends - starts) / (starts + c)))
 
@@ -188,7 +188,7 @@ def residual(panels: Density, t: FloatArray, increments: FloatArray) -> FloatArr
     """Return ln(n(P(u)) - n(u)) at the positions `t` of each panel: zero for the exact n.
 
     `increments` (panels, len(t)) are those of a finer period map. A residual r means that the
-    density is wrong by a factor 1 - r, about.
+    density is wrong by about a factor 1 - r.
     """
     with np.errstate(all="ignore"):  # of a panel far too wide: infinite or no number
         _, cycles, _ = _cycles_from(panels, t, increments, gauss(ACROSS_JUDGED))
@@ -264,11 +264,11 @@ def _cycles_from(
 
 
 def matching_defect(before: Density, after: Density) -> FloatArray:
-    """Return by how many cycles (panels,) the counts of neighbours differ within a cycle of where
-    they meet; one value for every panel of `before` and its neighbour in `after`.
+    """Return the difference in cycles (panels,) between the counts on each panel of `before` and on
+    its neighbour in `after`, within a cycle of where they meet.
 
-    Abel's equation leaves a function of period 1 in n free. Every panel picks its own: that does
-    no harm within a panel, but where two meet it shifts the count.
+    Abel's equation leaves a function of period 1 in n free. Every panel picks its own, which does
+    no harm within a panel; but where two meet it shifts the count.
     """
     m = before.series.shape[1]
     rule = gauss(ACROSS_A_FAST_CYCLE)

@@ -1,8 +1,8 @@
-"""The counts of one segment of many scenes, in batches of scenes that go together.
+"""One segment of the orbits of many scenes, solved in batches.
 
-A batch has scenes with meshes of phase of one size and equally many integrated cycles. Solving it
-shows which scenes need a finer mesh, shorter panels or more integrated cycles; those that need the
-same form a new batch, together with those of other batches.
+The scenes of a batch have meshes of phase of one size and equally many integrated cycles. Solving
+it shows which scenes need a finer mesh, shorter panels or more integrated cycles; those that need
+the same form a new batch, together with those of other batches.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ from wear.orbit.plan import (
 from wear.orbit.problem import Cost, Problem, Request
 from wear.orbit.transient import BLOCK, SAFETY, Transient, extended, no_cycle
 
-SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of the range: states for the mesh
+SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of ln(u + scale): for the mesh
 MOST_FIRST = 120  # cycles integrated one by one in a segment
 MOST_EVALUATIONS = 20_000_000  # of a scene: then the error estimate exceeds the tolerance
-NEARLY_THERE = 10.0  # times the residual that is asked for
+ACCEPTABLE = 10.0  # times the tolerance: a residual that refinement need not reduce further
 
 
 class Batch(NamedTuple):
-    """Scenes `which` with their period maps and transient; the number of its cycles that are
-    `needed`; the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the initial
-    panels, if any are known."""
+    """Scenes `which` with their period maps and transient; the number of cycles `needed` in that;
+    the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the `layout` of panels
+    to begin with, if one is known."""
 
     which: IntArray
     maps: PeriodMap
@@ -57,7 +57,7 @@ class Batch(NamedTuple):
         return (intervals, self.transient.cycles, self.needed, self.layout is None)
 
     def take(self, rows: IntArray, needed: int) -> Batch:
-        """Return the batch of some of the scenes, which need so many cycles."""
+        """Return the batch of some of the scenes, with the number of cycles `needed`."""
         if len(rows) == len(self.which):
             return self._replace(needed=needed, layout=None)
         return Batch(
@@ -71,7 +71,7 @@ class Batch(NamedTuple):
 
 
 class Batches:
-    """The counts of one segment of some scenes, found in batches of scenes that go together."""
+    """The counts of one segment of some scenes, batch by batch."""
 
     def __init__(self, problem: Problem, request: Request, rtol: float, keep: bool) -> None:
         self.problem, self.request, self.rtol, self.keep = problem, request, rtol, keep
@@ -80,14 +80,14 @@ class Batches:
         self.scale, self.limit = problem.scale, problem.limit
         self.end = look_ahead(problem, request)
         begin = request.start + self.scale
-        way = np.log1p((self.end - request.start) / begin)
-        self.samples = request.start[:, None] + begin[:, None] * np.expm1(way[:, None] * SAMPLES)
+        y = np.log1p((self.end - request.start) / begin)[:, None] * SAMPLES
+        self.samples = request.start[:, None] + begin[:, None] * np.expm1(y)
         floor = np.max(problem.roundoff(self.samples), axis=1)
         self.tolerance = np.maximum(size.residual_tolerance, floor)
         self.todo: dict[tuple[int, int, int, bool], list[Batch]] = {}
 
     def counts(self) -> Iterator[tuple[IntArray, Iterates]]:
-        """Return groups of scenes with their counts."""
+        """Yield groups of scenes with their counts."""
         problem, start = self.problem, self.request.start
         for which, maps in resolved(problem, problem.breakpoints, self.samples, self.size):
             zero, infinite = np.zeros(len(which)), np.full(len(which), np.inf)
@@ -102,11 +102,10 @@ class Batches:
                 yield from self._on_panels(batch)
 
     def _add(self, batch: Batch, rows: IntArray, needed: int, **changes: Any) -> None:
-        """Queue some of the scenes, if there are any, for the time when they have so many
-        cycles."""
+        """Queue some of the scenes, if there are any, until they have the cycles `needed`."""
         if len(rows):
-            some = batch.take(rows, needed)._replace(**changes)
-            self.todo.setdefault(some.key, []).append(some)
+            chosen = batch.take(rows, needed)._replace(**changes)
+            self.todo.setdefault(chosen.key, []).append(chosen)
 
     def _joined(self, batches: list[Batch]) -> Batch:
         """Return batches with the same key as one."""
@@ -169,20 +168,16 @@ class Batches:
         for rows, iterates in counts:
             good[rows] &= iterates.largest_error <= self.rtol
         # A residual of rounding errors does not fall with refinement.
-        accepted = (batch.worst <= NEARLY_THERE * tolerance) & ~(worst < batch.worst / 2)
+        accepted = (batch.worst <= ACCEPTABLE * tolerance) & ~(worst < batch.worst / 2)
         accepted &= number > 0
         accepted |= (spent > MOST_EVALUATIONS) | (marked & batch.maps.full)
         accepted |= self.request.late and number > 0
         accepted |= good & ~marked
-        finer = np.flatnonzero(marked & ~accepted)
-        for group, maps in (
-            batch.maps.take(finer).refined(adapted.marked[finer]) if len(finer) else ()
-        ):
-            rows = finer[group]
+        for rows, maps in batch.maps.refined(adapted.marked & ~accepted[:, None]):
             layout = _of(Layout(adapted.panels.scene, adapted.panels.density.grid), rows)
             state = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
             self._add(batch, rows, number, maps=maps, **state)
-        # Panels that can be cut no more: too few cycles lie behind them.
+        # The panels of the others can be cut no more: too few cycles lie behind them.
         rest = np.flatnonzero(~accepted & ~marked)
         self._add(batch, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
         for rows, iterates in counts or self._counted(batch, take(adapted.panels, accepted[scene])):
@@ -198,13 +193,13 @@ class Batches:
         return abel.grid(COORDINATE_SCALE * self.scale[batch.which], last, end)
 
     def _planned(self, batch: Batch) -> Iterator[tuple[IntArray, Iterates]]:
-        """Lay out panels that hold enough cycles, as far as possible; scenes whose first panels do
-        not hold enough are queued for more integrated cycles, and those whose phase is not resolved
-        on their panels for a finer mesh."""
+        """Lay out panels that hold enough cycles, as far as possible. Queue scenes whose first
+        panels hold too few for more integrated cycles, and those whose phase is not resolved on
+        their panels for a finer mesh; yield those that may have neither."""
         number = batch.transient.cycles
         scenes = np.arange(len(batch.which))
         plan = planned(batch.maps, scenes, self._grid(batch), self.size)
-        # Far beyond the cycles asked for the rate may vanish altogether: there is no density.
+        # Far beyond the requested cycles the rate may vanish altogether: there is no density.
         wanted = MARGIN * np.maximum(self.request.cycles[batch.which], LEAST)
         share = plan.cycles / wanted[plan.layout.scene]
         plan = take(plan, ~enough_before(share, plan.layout.scene))
@@ -224,9 +219,8 @@ class Batches:
         marked = np.zeros((len(scenes), plan.unresolved.shape[1]), dtype=bool)
         np.logical_or.at(marked, scene[usable], plan.unresolved[usable])
         marked &= ready[:, None] & (not batch.maps.full)
-        finer = np.flatnonzero(marked.any(axis=1))
-        for group, maps in batch.maps.take(finer).refined(marked[finer]) if len(finer) else ():
-            self._add(batch, finer[group], number, maps=maps)
+        for rows, maps in batch.maps.refined(marked):
+            self._add(batch, rows, number, maps=maps)
         rows = np.flatnonzero(ready & ~marked.any(axis=1))
         self._add(batch, rows, number, layout=_of(take(plan.layout, usable), rows))
 
@@ -248,29 +242,29 @@ class Batches:
         return transient.error(start_error, np.maximum(rounding[:, 1:], rounding[:, :-1]))
 
     def _counted(self, batch: Batch, panels: PanelSolution) -> Iterator[tuple[IntArray, Iterates]]:
-        """Return the counts on panels, those of scenes `rows` of the batch with as many panels
-        together."""
+        """Yield the counts on panels of the scenes `rows` of the batch, grouped by the number of
+        their panels."""
         scenes, inverse, counts = np.unique(panels.scene, return_inverse=True, return_counts=True)
         for number in np.unique(counts).tolist():
             rows = scenes[counts == number]
             which, transient = batch.which[rows], take(batch.transient, rows)
             error = self._transient_error(which, transient)
-            some = take(panels, counts[inverse] == number)
-            table = count_table(some.density, float(transient.cycles), len(rows))
+            own = take(panels, counts[inverse] == number)
+            table = count_table(own.density, float(transient.cycles), len(rows))
             begins, ends = (x.reshape(len(rows), -1) for x in (table.u, table.ends))
             u = np.concatenate([begins, ends[:, -1:]], axis=1)
             rounding = self.problem.take(which).roundoff(u)
-            of_count = count_error(some.density, some.residual, table, rounding, len(rows))
+            of_count = count_error(own.density, own.residual, table, rounding, len(rows))
             of_count += error[:, -1:] / table.first_rate.reshape(len(rows), -1)[:, :1]
             iterates = Iterates(
                 transient.states,
                 error,
                 table,
-                some.density,
+                own.density,
                 of_count,
                 self.limit[which],
                 _edges(batch.maps, rows),
-                some.cycles,
+                own.cycles,
             )
             yield rows, iterates
 
@@ -290,7 +284,7 @@ def count_error(
     for k in range(1, per_scene):
         before = take(panels, slice(k - 1, None, per_scene))
         after = take(panels, slice(k, None, per_scene))
-        # It shifts the count at once, and so belongs to the errors before.
+        # The shift acts at once, and so belongs to the last cell before.
         error[:, k * of_panel - 1] += SAFETY * abel.matching_defect(before, after)
     terms = ROUNDOFF * np.sum(np.abs(panels.series), axis=1)  # of ln(density)
     of_density = np.repeat(terms, of_panel).reshape(shape)
@@ -300,10 +294,8 @@ def count_error(
 
 def _of(layout: Layout, rows: IntArray) -> Layout:
     """Return the panels of some scenes, which are renumbered in rising order."""
-    chosen = np.full(max(layout.scene.max(initial=0), rows.max(initial=0)) + 1, False)
-    chosen[rows] = True
-    some = take(layout, chosen[layout.scene])
-    return some._replace(scene=(np.cumsum(chosen) - 1)[some.scene])
+    chosen = take(layout, np.isin(layout.scene, rows))
+    return chosen._replace(scene=np.searchsorted(np.sort(rows), chosen.scene))
 
 
 def _edges(maps: PeriodMap, rows: IntArray) -> FloatArray:

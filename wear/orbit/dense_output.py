@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
-from wear.numerics.collocation import CycleSolution
+from wear.numerics.collocation import NOISE_IN_TAIL, CycleSolution
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import BoolArray, FloatArray, Mesh, coefficients, integral, product
 from wear.numerics.initial_value import SAFETY, StoppedError
@@ -42,11 +42,7 @@ class PhaseIncrements(NamedTuple):
 class _DensePanels(NamedTuple):
     """The increments of cycles from the panels of a `grid`: Chebyshev coefficients `series`
     (panels, m, columns), their `error` (panels,), and that of the observable, `observable_error`
-    (panels,).
-
-    There is a column for the increment at each phase, and another for the logarithm of the
-    observable there.
-    """
+    (panels,). A column is the increment at a phase, or the logarithm of the observable there."""
 
     grid: abel.Grid
     series: FloatArray
@@ -75,7 +71,7 @@ class DenseOutput(NamedTuple):
         index = cycles[early].astype(int)
         columns[early] = self.first[index]
         error[early] = self.first_error[index]
-        if self.panels is not None:  # else no cycle adds anything any more
+        if self.panels is not None:  # else no later cycle adds anything
             grid, series, of_panels, of_observable = self.panels
             panel = np.where(early, -1, cell_of(grid.starts, starts))
             for p in np.unique(panel[~early]):
@@ -127,8 +123,8 @@ def _on_panels(
     rtol: float,
     observable: Observable | None,
 ) -> _DensePanels:
-    """Return the panels of the orbit, cut in two where the increment up to some phase depends on
-    the state more sharply than that of the whole cycle."""
+    """Return the panels of the orbit, cut in two where the increment up to a phase depends more
+    sharply on the state than that of the whole cycle."""
     assert iterates.density is not None
     size = settings(rtol, maps.equation.breakpoints)
     number, grid = len(phases), iterates.density.grid
@@ -149,7 +145,7 @@ def _on_panels(
         of_observable = SAFETY * np.max(difference[..., number:], axis=(1, 2), initial=0.0)
         error[~np.isfinite(difference).all(axis=(1, 2))] = np.inf
         solved = _DensePanels(grid, series, error, of_observable)
-        # No cycle ends with a state below the increment of the first.
+        # No cycle ends below the increment of the first.
         least = np.maximum(grid.starts, iterates.first_increment)
         cut = ~(SAFETY * error <= rtol / 4 * least)
         if not cut.any() or rounds == MOST_ROUNDS - 1:
@@ -180,7 +176,8 @@ def _violent(
 def _with_observable(
     observable: Observable | None, starts: FloatArray, added: FloatArray, forcing: FloatArray
 ) -> FloatArray:
-    """Return the columns to interpolate, from the increments (starts, phases)."""
+    """Return the columns to interpolate: the increments `added` (starts, phases), and the logarithm
+    of the observable, if any."""
     if observable is None:
         return added
     values = observable(starts[:, None] + added, forcing)
@@ -217,7 +214,7 @@ def _unresolved(rate: FloatArray, over: Mesh, tolerance: float) -> BoolArray:
     series = np.abs(coefficients(over.rule.coefficients, rate))
     tail, largest = np.max(series[-3:], axis=0), np.max(series, axis=0)
     coarse = tail * over.lengths > tolerance * integral(rate, over)[..., None]
-    marked: BoolArray = np.any(coarse & (tail > 100 * ROUNDOFF * largest), axis=1)
+    marked: BoolArray = np.any(coarse & (tail > NOISE_IN_TAIL * largest), axis=1)
     return marked
 
 

@@ -30,7 +30,7 @@ from wear.orbit.segments import orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
 CONDITION = 8.0  # roundoffs of a rate, by default
-DIFFERENCE = 1e-6  # of the state and its scale: states between which a slope is taken
+DIFFERENCE = 1e-6  # of the state and its scale: half the distance for a difference quotient
 
 
 class StatesAfter(NamedTuple):

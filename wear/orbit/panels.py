@@ -21,9 +21,9 @@ from wear.orbit.period_map import TAIL_SHARE, PeriodMap, Settings
 from wear.orbit.problem import Cost
 
 CHECKS = -np.cos(np.pi * np.array([0, 1 / 6, 3 / 8, 5 / 8, 7 / 8, 1]))  # extrema of T_24 and T_48
-FAR_OUT = 10.0  # times the residual elsewhere: then the fault lies at the end of the panel
+FAR_OUT = 10.0  # times the residual elsewhere: a larger one at the end of a panel lies there alone
 SPLIT = 0.4  # of a panel, in its coordinate: the density is sharper at low states
-FASTER = 2.0  # than on average may the state change at the end of a panel
+FASTER = 2.0  # the rate at the end of a panel over its mean, at most
 MOST_ROUNDS = 12  # of refinement
 MOST_PANELS = 200  # of a scene
 
@@ -86,7 +86,7 @@ def adapt(
     keep: bool,
 ) -> AdaptivePanels:
     """Solve Abel's equation on panels, and cut those with a residual above the `tolerance`
-    (scenes,). The cycles of panels are kept if that is asked for."""
+    (scenes,); `keep` the cycles of panels or not."""
     done: list[PanelSolution] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     cost = Cost(0, 0)
@@ -101,8 +101,7 @@ def adapt(
         for part in [*done, fresh]:
             stuck = part.short & ~(part.residual <= tolerance[part.scene])
             np.minimum.at(end, part.scene[stuck], part.density.grid.starts[stuck])
-        unclear = np.any(marked, axis=1)
-        cut = bad & ~fresh.short & (grid.starts < end[scene]) & ~unclear[scene]
+        cut = bad & ~fresh.short & (grid.starts < end[scene]) & ~np.any(marked, axis=1)[scene]
         number = sum(len(part.scene) for part in done) + len(scene)
         if rounds == MOST_ROUNDS - 1 or number > MOST_PANELS * len(marked) or not cut.any():
             done.append(fresh)
@@ -141,21 +140,21 @@ def _solve_and_check(
     cost = Cost(ahead.increment.size, ahead.evaluations)
     cost = cost.plus(judge.increment.size, judge.evaluations)
     marked = np.repeat(~ahead.converged[:, None], coarse.over.lengths.shape[-1], axis=1)
-    hazy = np.flatnonzero(by_phase > allowed)
-    if len(hazy):
-        shares = allowed[hazy, None, None] / (TAIL_SHARE * marked.shape[1])
-        marked[hazy] |= unresolved(ahead.rate[hazy], coarse.take(hazy).over, shares)
-    worst = np.flatnonzero(~(residual <= allowed))
-    if len(worst):
-        some = coarse.take(worst)
-        again = some.advance(checks[worst])
+    rows = np.flatnonzero(by_phase > allowed)
+    if len(rows):
+        shares = allowed[rows, None, None] / (TAIL_SHARE * marked.shape[1])
+        marked[rows] |= unresolved(ahead.rate[rows], coarse.take(rows).over, shares)
+    rows = np.flatnonzero(~(residual <= allowed))
+    if len(rows):
+        maps = coarse.take(rows)
+        again = maps.advance(checks[rows])
         cost = cost.plus(again.increment.size, again.evaluations)
-        difference = np.max(np.abs(again.increment / judge.increment[worst] - 1.0), axis=1)
+        difference = np.max(np.abs(again.increment / judge.increment[rows] - 1.0), axis=1)
         # Only a difference of the two maps is an error of the phase.
-        alike = np.less(difference, np.maximum(allowed[worst] / 4, residual[worst] / 10))
-        at_fault = ~alike[:, None]  # also where one of them is no number
-        marked[worst] |= at_fault & unresolved(again.rate, some.over, size.phase_tolerance)
-        marked[worst] |= at_fault & ~np.any(marked[worst], axis=1, keepdims=True)
+        agree = np.less(difference, np.maximum(allowed[rows] / 4, residual[rows] / 10))
+        by_mesh = ~agree[:, None]  # also where one of them is no number
+        marked[rows] |= by_mesh & unresolved(again.rate, maps.over, size.phase_tolerance)
+        marked[rows] |= by_mesh & ~np.any(marked[rows], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
     panels = PanelSolution(scene, density, residual, short, kept)
     return PanelCheck(panels, share, marked, cost)
@@ -182,9 +181,9 @@ def at_checks(ahead: CycleSolution, m: int) -> InitialGuess:
 
 
 def _cycles_if_cut(taken: FloatArray, share: FloatArray) -> FloatArray:
-    """Return roughly how many cycles the first part of each panel, a `share` (panels,) of it, would
-    take, and no more than at the rate of its end, from `taken` (panels, m) cycles at the rates of
-    its nodes."""
+    """Return the approximate number of cycles on the first part of each panel, a `share` (panels,)
+    of it, from the numbers `taken` (panels, m) on the whole panel at the rate of each node; at most
+    FASTER times the number at the rate of its end."""
     rows, m = np.arange(len(taken)), taken.shape[1]
     inside = np.minimum(np.searchsorted(chebyshev_nodes(m), 2 * share - 1), m - 1)
     mean = np.cumsum(taken, axis=1)[rows, inside - 1] / inside

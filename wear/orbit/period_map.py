@@ -36,17 +36,16 @@ from wear.numerics.rows import stacked, take
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase have no valid error estimate
 LOOSEST = 1e-4  # relative error: a looser count saves nothing
-MOST_INTERVALS = 256  # of one cycle; or so many for each that its breakpoints make:
-MOST_CUTS = 8
+MOST_INTERVALS = 256  # of one cycle, or, if that is more,
+MOST_CUTS = 8  # times those between its breakpoints
 FEW_NODES = 8
-MANY_BREAKPOINTS = 128  # of one cycle: between as many the rate changes little, few nodes do
+MANY_BREAKPOINTS = 128  # of one cycle: so close that between two of them FEW_NODES suffice
 MOST_VIOLENT = 1_000_000  # evaluations of the rate, for an interval of a violent cycle
-NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, of many scenes: few different ones
-IN_CACHE = 12000  # numbers of an array that stays in the processor's cache, with some others
+NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, so that many scenes share a number
+IN_CACHE = 12000  # numbers in an array that stays in the processor's cache beside a few others
 # Of `truncation_error`: in 99 of 100 random scenes the error is less than three times that.
 TAIL_SHARE = 1 / 12
-
-NEARLY = 0.9  # of the limit: a cycle that gets so far leads beyond
+NEARLY = 0.9  # of the limit: a cycle that cannot be followed beyond would pass it
 
 Selection = slice | IntArray
 
@@ -126,7 +125,7 @@ class PeriodMap(NamedTuple):
 
     @property
     def scenes(self) -> int:
-        """Return how many scenes there are."""
+        """Return the number of scenes."""
         return self.equation.scenes
 
     @property
@@ -169,29 +168,28 @@ class PeriodMap(NamedTuple):
         """Return the increments of a cycle from each start (scenes, k), from a guess or from the
         rate without feedback, `frozen` (scenes, k, q, m), if one of them is known."""
         runs = []
-        for some in self._in_cache(starts):
-            part, near = self.take(some), None if guess is None else take(guess, some)
+        for rows in self._in_cache(starts):
+            maps, near = self.take(rows), None if guess is None else take(guess, rows)
             if frozen is not None:
-                near = guess_without_feedback(starts[some], frozen[some], part.over)
-            runs.append(solve(part, starts[some], near))
+                near = guess_without_feedback(starts[rows], frozen[rows], maps.over)
+            runs.append(solve(maps, starts[rows], near))
         return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
 
     def rate_without_feedback(self, u: FloatArray) -> FloatArray:
-        """Return the rate (scenes, k, q, m) in cycles if it stayed that at each state (scenes, k)
-        of their starts."""
-        parts = []
-        for some in self._in_cache(u):
-            part = self.take(some)
-            parts.append(part.equation.rate(u[some, :, None, None], part.forcing))
-        return np.concatenate(parts)
+        """Return the rate (scenes, k, q, m) in cycles, the state frozen at each u (scenes, k)."""
+        rates = []
+        for rows in self._in_cache(u):
+            maps = self.take(rows)
+            rates.append(maps.equation.rate(u[rows, :, None, None], maps.forcing))
+        return np.concatenate(rates)
 
     def increment_without_feedback(self, u: FloatArray) -> FloatArray:
-        """Return the increments of cycles with that rate (scenes, k)."""
+        """Return the increments (scenes, k) of cycles with that rate."""
         return integral(self.rate_without_feedback(u), self.over)
 
     def consecutive(self, starts: FloatArray, number: int) -> CycleSolution:
-        """Return so many cycles on end from each start (scenes,), all at once on copies of the
-        mesh; the increments (scenes, number) are those of the cycles."""
+        """Return a `number` of consecutive cycles from each start (scenes,), all at once on copies
+        of the mesh; the increments (scenes, number) are those of single cycles."""
         over, (q, m) = self.over, self.forcing.shape[-2:]
         edges = [over.edges[..., :-1] + k for k in range(number)]
         edges.append(over.edges[..., -1:] + (number - 1))
@@ -228,7 +226,7 @@ class PeriodMap(NamedTuple):
     ) -> tuple[float, float, float, float, int]:
         """Return the increment of a cycle of one scene from the state `start`, its error, the
         derivative dP/du, the response to a relative error of the rate, and the number of right-hand
-        sides; the state stops short of the `limit`."""
+        sides evaluated; the state stays below the `limit`."""
         evaluations, last_values = 0, [0.0, np.inf, 1.0, 0.0]
         try:
             for last in self.integrated(start, limit, size):
@@ -284,15 +282,16 @@ class PeriodMap(NamedTuple):
         return TAIL_SHARE * error / (run.increment + TINY)
 
     def refined(self, marked: BoolArray) -> Iterator[tuple[IntArray, PeriodMap]]:
-        """Return the scenes, grouped by the size of their meshes, with the `marked` intervals
-        (scenes, q) cut in two."""
+        """Yield the scenes with `marked` intervals (scenes, q), grouped by the size of their
+        meshes, and their period maps with these intervals cut in two."""
+        rows, m = np.flatnonzero(marked.any(axis=1)), len(self.over.rule.nodes)
         edges = np.broadcast_to(self.over.edges[:, 0], (len(marked), marked.shape[1] + 1))
-        m = len(self.over.rule.nodes)
-        for which, finer in _cut_alike(edges, marked):
-            yield which, period_map(self.equation.take(which), finer, m, self.tolerance)
+        for which, finer in _cut_alike(edges[rows], marked[rows]):
+            scenes = self.equation.take(rows[which])
+            yield rows[which], period_map(scenes, finer, m, self.tolerance)
 
     def _in_cache(self, starts: FloatArray) -> Iterator[slice]:
-        """Return scenes a few at a time, with so many starts each."""
+        """Yield the scenes in slices that stay in the cache with all their starts."""
         scenes = max(1, IN_CACHE // (starts.shape[1] * self.forcing[0].size))
         for at in range(0, len(starts), scenes):
             yield slice(at, at + scenes)
@@ -307,7 +306,7 @@ def period_map(
 
 
 def by_size(breakpoints: Sequence[FloatArray]) -> Iterator[tuple[IntArray, FloatArray]]:
-    """Return the scenes grouped by their number of breakpoints (q + 1,), and these as edges."""
+    """Yield the scenes grouped by their number of breakpoints (q + 1,), and these as edges."""
     sizes = np.array([len(edges) for edges in breakpoints])
     for size in np.unique(sizes):
         which = np.flatnonzero(sizes == size)
@@ -320,8 +319,8 @@ def resolved(
     states: FloatArray,
     size: Settings,
 ) -> Iterator[tuple[IntArray, PeriodMap]]:
-    """Return groups of scenes with meshes that resolve the rate at the `states` (scenes, k), cut at
-    the `breakpoints` (q + 1,) of each at least."""
+    """Yield groups of scenes with meshes that resolve the rate at the `states` (scenes, k), cut at
+    least at the `breakpoints` (q + 1,) of each."""
     todo = {edges.shape[1]: [(which, edges)] for which, edges in by_size(breakpoints)}
     while todo:
         parts = todo.pop(min(todo))  # cutting only adds intervals: none comes back to this number
@@ -341,11 +340,11 @@ def resolved(
 
 
 def _cut_alike(edges: FloatArray, marked: BoolArray) -> Iterator[tuple[IntArray, FloatArray]]:
-    """Return which scenes then have as many intervals, and their edges (scenes, q + 1) with the
+    """Yield groups of scenes with equally many intervals, and their edges (scenes, q + 1) with the
     `marked` intervals (scenes, q) cut in two.
 
-    Of many, the longest intervals are cut as well until their number is one of a few: scenes with
-    as many intervals go together.
+    If there are several scenes, their longest intervals are cut as well until their number is one
+    of NUMBERS, so that groups are large.
     """
     cuts = np.sum(marked, axis=1)
     for more in np.unique(cuts).tolist():
@@ -358,14 +357,14 @@ def _cut_alike(edges: FloatArray, marked: BoolArray) -> Iterator[tuple[IntArray,
 
 
 def _cut(edges: FloatArray, marked: BoolArray) -> FloatArray:
-    """Return edges (scenes, q + 1) with the `marked` intervals cut in two, as many a scene."""
+    """Return edges (scenes, q + 1) with the `marked` intervals cut in two, equally many a scene."""
     middles = np.where(marked, (edges[:, 1:] + edges[:, :-1]) / 2, np.inf)
     finer = np.sort(np.concatenate([edges, middles], axis=1), axis=1)
     return finer[:, : edges.shape[1] + int(np.sum(marked[0]))]
 
 
 def _cut_longest(edges: FloatArray, number: int) -> FloatArray:
-    """Return edges with the longest intervals cut in two until there are so many."""
+    """Return edges with the longest intervals cut in two until there are `number` of them."""
     while edges.shape[1] - 1 < number:
         lengths = np.diff(edges, axis=1)
         longest = np.arange(lengths.shape[1]) == np.argmax(lengths, axis=1)[:, None]

@@ -22,13 +22,13 @@ from wear.orbit.period_map import IN_CACHE, PeriodMap, Settings, by_size, period
 from wear.orbit.problem import Problem, Request
 
 LEAST = 200.0  # the last panel reaches this count at least: panels are long against a cycle
-MARGIN = 4.0  # of the look ahead, in cycles
+MARGIN = 4.0  # times the requested cycles are looked ahead
 LONGEST, STEPS = 36.0, 60  # of the look ahead, in ln(1 + u/scale)
 AHEAD_NODES = 10  # on each interval of phase, to look ahead
 COORDINATE_SCALE = 12.0  # of the coordinate of panels, over the scale: one serves to infinity
 SMALL = 0.65  # of the state and its scale: a cycle that adds more changes the rate much
 SHARP = 0.3  # change of the logarithm of the density within a cycle
-MOST_LOG = 650.0  # of a density: its exponential is a number
+MOST_LOG = 650.0  # logarithm of a density whose exponential is finite
 MOST_PLANNED = 150  # panels of a scene
 
 
@@ -72,16 +72,15 @@ class PanelPlan(NamedTuple):
 
 def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -> PanelPlan:
     """Return a plan of panels, cut until their coefficients resolve the density without feedback,
-    and until none ends at a rate at which it would hold few cycles: its last cycle leads beyond
-    it."""
+    and until none would hold few cycles at the rate of its end: its last cycle leads beyond it."""
     m = size.panel_nodes
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[PanelPlan] = []
     number = 0
     while True:
-        some = maps.take(scene)
-        rate = some.rate_without_feedback(grid.states(nodes))
-        frozen = integral(rate, some.over)
+        of_panels = maps.take(scene)
+        rate = of_panels.rate_without_feedback(grid.states(nodes))
+        frozen = integral(rate, of_panels.over)
         violent = frozen[:, 0] > SMALL * (grid.starts + grid.c / COORDINATE_SCALE)
         density = np.minimum(-np.log(frozen + TINY), MOST_LOG)
         # Less a constant, whose rounding would look like a tail.
@@ -95,7 +94,7 @@ def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
-        coarse = unresolved(rate, some.over, size.phase_tolerance)
+        coarse = unresolved(rate, of_panels.over, size.phase_tolerance)
         done.append(take(PanelPlan(Layout(scene, grid, kept), cycles, coarse), ~cut))
         if not cut.any():
             break

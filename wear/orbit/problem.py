@@ -19,7 +19,7 @@ class Cost(NamedTuple):
     rhs_evaluations: int
 
     def plus(self, cycles: int, evaluations: int) -> Cost:
-        """Return the cost after so much more work."""
+        """Return the cost after more work."""
         return Cost(self.cycles_integrated + cycles, self.rhs_evaluations + evaluations)
 
 
@@ -32,7 +32,7 @@ class Problem(Equation, Protocol):
 
     @property
     def limit(self) -> FloatArray:
-        """Return the states (s,) from which on the rate has no meaning; infinite if none has."""
+        """Return the states (s,) from which on the rate has no meaning, infinite if none has."""
 
     @property
     def breakpoints(self) -> list[FloatArray]:

@@ -19,11 +19,11 @@ import numpy as np
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.orbit.batches import Batches
+from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost, Problem, Request
 
 MOST_SEGMENTS = 40
-NEARLY = 1 - 1e-9  # of the limit of the states
-TIGHT = 1e-12
+TIGHT = 1e-12  # relative accuracy of a second try, where the rate rises steeply
 
 
 class AnyIterates(Protocol):
@@ -121,14 +121,14 @@ class Orbit(NamedTuple):
     @property
     def at_rest(self) -> BoolArray:
         """Return which scenes (s,) have come to rest."""
-        found = np.full(self.scenes, False)
+        at_rest = np.full(self.scenes, False)
         for segment in self.segments:
-            found[segment.which] = segment.iterates.at_rest
-        return found
+            at_rest[segment.which] = segment.iterates.at_rest
+        return at_rest
 
     def last(self, scene: int) -> Segment:
         """Return the last segment of a scene, alone."""
-        return next(part for part in reversed(self.segments) if scene in part.which)
+        return next(segment for segment in reversed(self.segments) if scene in segment.which)
 
 
 def orbit(
@@ -145,19 +145,19 @@ def orbit(
     of panels, for derivatives."""
     cost = Cost(0, 0)
     todo = [(np.arange(problem.scenes), Request(cycles, start, start_error, deadline))]
-    found: list[Segment] = []
-    lost: list[IntArray] = []
+    segments: list[Segment] = []
+    inaccurate: list[IntArray] = []
     for _ in range(MOST_SEGMENTS):
         following = []
         for which, request in todo:
-            work = Batches(problem.take(which), request, rtol, keep)
-            for rows, iterates in work.counts():
+            batches = Batches(problem.take(which), request, rtol, keep)
+            for rows, iterates in batches.counts():
                 scenes, remaining = which[rows], request.take(rows)
                 begins = cycles[scenes] - remaining.cycles
                 zero = np.zeros(len(rows))
-                found.append(Segment(scenes, iterates, begins, zero, zero))
+                segments.append(Segment(scenes, iterates, begins, zero, zero))
                 if not request.late:
-                    lost.append(scenes[iterates.largest_error > rtol])
+                    inaccurate.append(scenes[iterates.largest_error > rtol])
                 ran = iterates.whole_cycles
                 ended = iterates.at_rest | ~(iterates.last_state < NEARLY * iterates.limit)
                 more = np.flatnonzero(~ended & (ran < remaining.cycles) & (ran > 0))
@@ -166,36 +166,37 @@ def orbit(
                 state, error = iterates.after(ran[:, None])
                 error = (error * state)[more, 0]
                 known = np.isfinite(error)
-                lost.append(scenes[more[~known]])
+                inaccurate.append(scenes[more[~known]])
                 more = more[known]
                 if len(more):
                     cycles_left = (remaining.cycles - ran)[more]
                     onward = Request(cycles_left, state[more, 0], error[known], deadline)
                     following.append((scenes[more], onward))
-            cost = cost.plus(*work.cost)
+            cost = cost.plus(*batches.cost)
         todo = following
         if not todo:
             break
     # Where the rate rises steeply, a small error of the count is a large one of the state.
-    again = np.unique(np.concatenate(lost)) if lost else np.empty(0, dtype=np.intp)
+    again = np.unique(np.concatenate([*inaccurate, np.empty(0, dtype=np.intp)]))
     if len(again) and rtol > TIGHT:
         own = cycles[again], TIGHT, start[again], start_error[again], deadline, keep
         tight = orbit(problem.take(again), *own)
-        found = [part for part in (_without(segment, again) for segment in found) if part]
-        found += [segment._replace(which=again[segment.which]) for segment in tight.segments]
+        others = [_without(segment, again) for segment in segments]
+        segments = [segment for segment in others if segment]
+        segments += [segment._replace(which=again[segment.which]) for segment in tight.segments]
         cost = cost.plus(*tight.cost)
-    return Orbit(problem.scenes, tuple(found), cost)
+    return Orbit(problem.scenes, tuple(segments), cost)
 
 
 def joined(orbits: Sequence[Orbit]) -> Orbit:
     """Return the orbits of one scene each as that of all of them."""
-    parts = [
+    segments = [
         segment._replace(which=segment.which + i)
         for i, orbit in enumerate(orbits)
         for segment in orbit.segments
     ]
     cost = Cost(*np.sum([orbit.cost for orbit in orbits], axis=0).tolist())
-    return Orbit(len(orbits), tuple(parts), cost)
+    return Orbit(len(orbits), tuple(segments), cost)
 
 
 def _without(segment: Segment, scenes: IntArray) -> Segment | None:

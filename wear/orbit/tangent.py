@@ -94,10 +94,10 @@ def map_derivatives(
     return MapDerivatives(np.exp(growth), by_parameters)
 
 
-class Sums(NamedTuple):
-    """S = (dn/du) (du/dp) on the cells of a count (s, cells, parameters): its value where each cell
-    starts, and its estimated error there and where the last one ends (s, cells + 1, parameters);
-    with the coefficients `series` (panels, m, parameters) of dS/dn."""
+class OrbitSums(NamedTuple):
+    """S = (dn/du) (du/dp) on the cells of a count table: its value at the start of each cell (s,
+    cells, parameters), its estimated error there and where the last one ends (s, cells + 1,
+    parameters), and the coefficients `series` (panels, m, parameters) of dS/dn."""
 
     start: FloatArray
     error: FloatArray
@@ -106,21 +106,21 @@ class Sums(NamedTuple):
 
 def tangents(
     problem: ParametrisedProblem,
-    found: Orbit,
+    orbit: Orbit,
     cycles: FloatArray,
     rtol: float,
     start: FloatArray,
     start_error: FloatArray,
 ) -> Tangents:
-    """Return the derivatives of the states that the orbit `found`, iterates to `rtol` with its
-    cycles kept, has after `cycles` (s, c), if the first state has the derivative `start`
-    (s, parameters), known up to `start_error`."""
-    shape = (found.scenes, problem.parameters, cycles.shape[1])
-    derivative, missed = np.full(shape, np.nan), np.full(shape, np.inf)
+    """Return the derivatives of the states of an `orbit` after `cycles` (s, c), if the first state
+    has the derivative `start` (s, parameters), known up to `start_error`. The orbit was computed to
+    `rtol`, with its cycles kept."""
+    shape = (orbit.scenes, problem.parameters, cycles.shape[1])
+    derivative, derivative_error = np.full(shape, np.nan), np.full(shape, np.inf)
     u, increment = np.full((2, *cycles.shape), np.nan)
     error = np.full(cycles.shape, np.inf)
     onward, onward_error = start.copy(), start_error.copy()
-    for segment in found.segments:
+    for segment in orbit.segments:
         which, since = segment.which, cycles[segment.which] - segment.begins[:, None]
         iterates = cast(Iterates, segment.iterates)
         last = iterates.whole_cycles
@@ -136,11 +136,11 @@ def tangents(
         relative = np.where(known, relative[:, :-1], np.inf)
         error[which] = np.where(here[:, 0], relative, error[which])
         derivative[which] = np.where(here, own[..., :-1], derivative[which])
-        missed[which] = np.where(here, own_error[..., :-1], missed[which])
+        derivative_error[which] = np.where(here, own_error[..., :-1], derivative_error[which])
         increment[which] = np.where(here[:, 0], added[:, :-1], increment[which])
         onward[which], onward_error[which] = own[..., -1], own_error[..., -1]
-    missed = np.where(np.isfinite(error)[:, None], missed, np.inf)
-    return Tangents(u, error, derivative, missed, increment)
+    derivative_error = np.where(np.isfinite(error)[:, None], derivative_error, np.inf)
+    return Tangents(u, error, derivative, derivative_error, increment)
 
 
 def _in_segment(
@@ -160,7 +160,7 @@ def _in_segment(
     number = iterates.integrated_cycles
     index = np.minimum(cycles, number).astype(int)
     rows = np.arange(len(cycles))[:, None]
-    derivative, missed = early[rows, index], early_error[rows, index]
+    derivative, error = early[rows, index], early_error[rows, index]
     added = np.diff(iterates.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
     if iterates.table is not None:
@@ -169,9 +169,9 @@ def _in_segment(
         first = iterates.table.u.reshape(len(u), -1)[:, :1]
         far = after_on_cells(iterates, sums, np.maximum(cycles, number), np.maximum(u, first))
         derivative = np.where(late[..., None], far[0], derivative)
-        missed = np.where(late[..., None], far[1], missed)
+        error = np.where(late[..., None], far[1], error)
         increment = np.where(late, far[2], increment)
-    return np.moveaxis(derivative, 2, 1), np.moveaxis(missed, 2, 1), increment
+    return np.moveaxis(derivative, 2, 1), np.moveaxis(error, 2, 1), increment
 
 
 def _in_transient(
@@ -182,27 +182,24 @@ def _in_transient(
     start_error: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
     """Return du/dp (s, k + 1, parameters) after 0, 1, ... k integrated cycles, and its error."""
-    found, error = [start], [start_error]
+    derivative, error = [start], [start_error]
     scenes, k = len(start), iterates.integrated_cycles
     if k == 0:
         return start[:, None], start_error[:, None]
     starts = iterates.transient[:, :-1].reshape(-1, 1)
-    each = maps.take(np.repeat(np.arange(scenes), k))
-    coarse, fine = _of_cycles(each, starts, size)
-    shape = (scenes, k, -1)
-    E, D, finer_E, finer_D = (
-        x.reshape(shape) for x in (*coarse, *fine)
-    )  # dP/du and dP/dp of every cycle
-    state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
+    coarse, fine = _of_cycles(maps.take(np.repeat(np.arange(scenes), k)), starts, size)
+    # dP/du and dP/dp of every cycle
+    E, D, finer_E, finer_D = (x.reshape(scenes, k, -1) for x in (*coarse, *fine))
+    of_state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
     for i in range(k):
-        found.append(finer_E[:, i] * found[-1] + finer_D[:, i])
-    values = np.stack(found, axis=1)
+        derivative.append(finer_E[:, i] * derivative[-1] + finer_D[:, i])
+    values = np.stack(derivative, axis=1)
     before, grown = values[:, :-1], finer_E * values[:, :-1]
-    apart = np.abs((finer_E - E) * before) + np.abs(finer_D - D)
-    size_of = np.abs(grown) + np.abs(finer_D)
-    missed = SAFETY * (apart + state[..., None] * size_of)
+    difference = np.abs((finer_E - E) * before) + np.abs(finer_D - D)
+    terms = np.abs(grown) + np.abs(finer_D)
+    local_error = SAFETY * (difference + of_state[..., None] * terms)
     for i in range(k):
-        error.append(finer_E[:, i] * error[-1] + missed[:, i])
+        error.append(finer_E[:, i] * error[-1] + local_error[:, i])
     return values, np.stack(error, axis=1)
 
 
@@ -210,19 +207,19 @@ def _of_cycles(
     maps: PeriodMap, starts: FloatArray, size: Settings
 ) -> tuple[MapDerivatives, MapDerivatives]:
     """Return the derivatives of the period map at each start (rows, 1), by the mesh and by a finer
-    one; a cycle that the mesh does not resolve has a mesh of its own, and NaN if there is none."""
+    one. A cycle that the mesh does not resolve gets a mesh of its own, NaN if none resolves it."""
     run = maps.advance(starts)
-    found = _linearised_twice(maps, starts, run, size)
+    arrays = _linearised_twice(maps, starts, run, size)
     for row in np.flatnonzero(maps.unresolved(starts, run, size).any(axis=1))[:, None]:
         try:
             better = maps.take(row).cut_for(float(starts[row, 0].item()), size)
         except StoppedError:
-            again: Sequence[FloatArray] = [np.array(np.nan)] * len(found)
+            again: Sequence[FloatArray] = [np.array(np.nan)] * len(arrays)
         else:
             again = _linearised_twice(better, starts[row], better.advance(starts[row]), size)
-        for whole, part in zip(found, again, strict=True):
-            whole[row] = part
-    return MapDerivatives(*found[:2]), MapDerivatives(*found[2:])
+        for array, corrected in zip(arrays, again, strict=True):
+            array[row] = corrected
+    return MapDerivatives(*arrays[:2]), MapDerivatives(*arrays[2:])
 
 
 def _linearised_twice(
@@ -240,16 +237,17 @@ def _on_panels(
     size: Settings,
     start: FloatArray,
     start_error: FloatArray,
-) -> Sums:
-    """Return S on the cells of a count, from du/dp where they start."""
+) -> OrbitSums:
+    """Return S on the cells of a count table, from du/dp (s, parameters) where the first of each
+    scene starts, and its error."""
     panels = iterates.density
     assert panels is not None
     scenes = len(start)
-    some = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
+    own = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
     at = chebyshev_nodes(panels.series.shape[1]), CHECKS
     nodes, checks = (
         _added(each, panels, t, run)
-        for each, t, run in zip((some, some.finer(size)), at, iterates.cycles, strict=True)
+        for each, t, run in zip((own, own.finer(size)), at, iterates.cycles, strict=True)
     )
     return sums_on_cells(iterates, nodes, checks, start, start_error)
 
@@ -260,9 +258,10 @@ def sums_on_cells(
     checks: abel.SumIncrements,
     start: FloatArray,
     start_error: FloatArray,
-) -> Sums:
-    """Return S on the cells of a count, from du/dp (s, parameters) where they start, its error, and
-    the cycles from the nodes of panels; those from the CHECKS, with a finer map, are to judge."""
+) -> OrbitSums:
+    """Return S on the cells of a count table, from du/dp (s, parameters) where the first of each
+    scene starts, its error, and the cycles from the `nodes` of panels. Those from the CHECKS, by a
+    finer map, give the error."""
     panels, table = iterates.density, iterates.table
     assert panels is not None
     assert table is not None
@@ -272,22 +271,22 @@ def sums_on_cells(
     density, rates = _at_cells(panels, table, series, gauss(NODES).nodes)
     density = density * gauss(NODES).weights
     gain = np.einsum("cg,cgk->ck", density, rates)
-    size_of = np.einsum("cg,cgk->ck", density, np.abs(rates))
+    absolute = np.einsum("cg,cgk->ck", density, np.abs(rates))
     panel = np.repeat(np.arange(len(residual)), len(gain) // len(residual))
     grid, ends = take(panels.grid, panel), np.column_stack([table.u, table.ends])
     t = grid.positions(ends)
     worst = near_checks(residual[panel], t).max(axis=1)
-    # It is the derivative of a small residual along the orbit, whose sum over many cycles is small.
+    # The derivative of a residual along the orbit: small like that if summed over many cycles.
     of_density = near_checks(of_density[panel], t).max(axis=1) * np.minimum(table.number, 1.0)
     of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.number[:, None]
-    lost = SAFETY * (worst * table.number[:, None] + of_count * size_of)
+    error = SAFETY * (worst * table.number[:, None] + of_count * absolute)
     first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
     shape = (len(start), -1, start.shape[1])
     sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
-    size = np.concatenate([np.abs(first * start[:, None]), size_of.reshape(shape)], axis=1)
-    lost = lost.reshape(shape) + of_density.reshape(*shape[:2], 1) * size.cumsum(axis=1)[:, :-1]
-    errors = np.concatenate([first * start_error[:, None], lost], axis=1)
-    return Sums(sums[:, :-1], errors.cumsum(axis=1), series)
+    terms = np.concatenate([np.abs(first * start[:, None]), absolute.reshape(shape)], axis=1)
+    error = error.reshape(shape) + of_density.reshape(*shape[:2], 1) * terms.cumsum(axis=1)[:, :-1]
+    errors = np.concatenate([first * start_error[:, None], error], axis=1)
+    return OrbitSums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
 def _added(
@@ -322,9 +321,9 @@ def _at_cells(
 
 
 def after_on_cells(
-    iterates: Iterates, sums: Sums, cycles: FloatArray, states: FloatArray
+    iterates: Iterates, sums: OrbitSums, cycles: FloatArray, states: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return du/dp (s, c, parameters) after `cycles` (s, c) on the cells, which lead to the
+    """Return du/dp (s, c, parameters) after `cycles` (s, c) on the count table, which lead to the
     `states` (s, c), its error, and du/dn."""
     table, panels = iterates.table, iterates.density
     assert table is not None
@@ -340,21 +339,20 @@ def after_on_cells(
     nodes = np.column_stack([x[:, None] * rule.nodes, x, beside])
     density, rates = _at_cells(panels, table, sums.series, nodes, flat)
     # du/dn from the density itself: Newton's last step may be larger than rounding.
-    pace = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -2]
-    bend = np.abs(np.log(density[:, -1] / density[:, -2])) / (BESIDE * density[:, -2])
-    bend = bend.reshape(*cycles.shape, 1)
-    onward = np.abs(rates[:, -2]).reshape(*cycles.shape, -1)
+    du_dn = table.length[flat] * (table.offset[flat] + u - table.u[flat]) / density[:, -2]
+    growth = np.abs(np.log(density[:, -1] / density[:, -2])) / (BESIDE * density[:, -2])
+    growth = growth.reshape(*cycles.shape, 1)
+    dS_dn = np.abs(rates[:, -2]).reshape(*cycles.shape, -1)
     density, rates = density[:, :-2] * (x[:, None] * rule.weights), rates[:, :-2]
     rows = np.arange(scenes)[:, None]
     within = np.einsum("cg,cgk->ck", density, rates).reshape(*cycles.shape, -1)
     total = sums.start[rows, cell] + within
     share = x.reshape(cycles.shape)[..., None]
-    missed = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
-    # The density and the count themselves are out, where the state is.
+    error = (1 - share) * sums.error[rows, cell] + share * sums.error[rows, cell + 1]
+    # The errors of the density and of the count shift the place where S is evaluated.
     steps = np.diff(iterates.count_error, axis=1)
     own = SAFETY * (steps.reshape(-1)[flat] / table.number[flat]).reshape(*cycles.shape, 1)
     count = iterates.count_error[rows, cell + 1][..., None]
-    missed = missed + (own + bend * count + ROUNDOFF) * np.abs(total) + onward * count
-    pace = pace.reshape(*cycles.shape, 1)
-    missed = pace * missed
-    return pace * total, missed, pace[..., 0]
+    error = error + (own + growth * count + ROUNDOFF) * np.abs(total) + dS_dn * count
+    du_dn = du_dn.reshape(*cycles.shape, 1)
+    return du_dn * total, du_dn * error, du_dn[..., 0]

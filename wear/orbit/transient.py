@@ -77,8 +77,8 @@ class TransientBlock(NamedTuple):
 def extended(
     maps: PeriodMap, begun: Transient, limit: FloatArray, size: Settings, tolerance: FloatArray
 ) -> Iterator[TransientBlock]:
-    """Integrate BLOCK more cycles of some scenes; one where the rate is so fast that the iteration
-    over cycles fails; or refine the meshes of those scenes whose cycles they do not resolve.
+    """Integrate BLOCK more cycles of some scenes, or only one where the rate is so fast that the
+    iteration over cycles fails; refine the meshes that do not resolve the cycles.
 
     States beyond the `limit` (s,) have no meaning.
     """
@@ -98,29 +98,26 @@ def extended(
     calm = np.flatnonzero(sound & ~marked.any(axis=1))
     evaluations = run.evaluations
     if len(calm):
-        some, found, starts = maps.take(calm), take(run, calm), starts[calm]
-        fine = some.finer(size)
-        judge = fine.advance(starts, found.guess(size.finer_nodes))
+        coarse, run, starts = maps.take(calm), take(run, calm), starts[calm]
+        fine = coarse.finer(size)
+        judge = fine.advance(starts, run.guess(size.finer_nodes))
         evaluations += judge.evaluations
-        error = np.abs(judge.increment - found.increment)
-        # Common to both meshes; and of the iteration.
+        error = np.abs(judge.increment - run.increment)
+        # The error that both meshes have in common, and that of the iteration.
         error += np.sum(fine.endpoint_defect(starts, judge), axis=2)
         error += judge.iteration_error * judge.increment
         error[~judge.converged] = np.inf
-        coarse = np.any(error > tolerance[calm, None] * states[calm], axis=1)
-        coarse &= not maps.full
-        marked[calm[coarse]] = True
-        derivative = some.derivative(starts, found)
-        response = found.increment * np.maximum(derivative, 1.0)
-        columns = found.increment, error, derivative, response
-        good = np.flatnonzero(~coarse)
+        inaccurate = np.any(error > tolerance[calm, None] * states[calm], axis=1) & (not maps.full)
+        marked[calm[inaccurate]] = True
+        derivative = coarse.derivative(starts, run)
+        response = run.increment * np.maximum(derivative, 1.0)
+        columns = run.increment, error, derivative, response
+        good = np.flatnonzero(~inaccurate)
         if len(good):
             more = take(begun, calm[good]).then(*(array[good] for array in columns))
             cost = Cost(2 * BLOCK * len(calm), evaluations)
-            yield TransientBlock(calm[good], some.take(good), more, cost)
+            yield TransientBlock(calm[good], coarse.take(good), more, cost)
             evaluations = 0
-    rest = np.flatnonzero(marked.any(axis=1))
-    for which, finer in maps.take(rest).refined(marked[rest]) if len(rest) else ():
-        group = rest[which]
-        yield TransientBlock(group, finer, take(begun, group), Cost(0, evaluations))
+    for which, finer in maps.refined(marked):
+        yield TransientBlock(which, finer, take(begun, which), Cost(0, evaluations))
         evaluations = 0
