@@ -18,7 +18,7 @@ from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from wear.binding import bind
-from wear.inside import Inside, fields_inside
+from wear.inside import Chunk, fields_inside
 from wear.load import HistoryLoad
 from wear.load.spans import span
 from wear.model import Model
@@ -102,7 +102,7 @@ def _sampled(values: FloatArray, over: Mesh) -> _OnMesh:
 
 
 def _pressures(
-    part: Inside, over: Mesh, wear_per_pressure: FloatArray, given_load: bool
+    part: Chunk, over: Mesh, wear_per_pressure: FloatArray, given_load: bool
 ) -> CyclePressures:
     """Return peak, mean and contact fraction of cycles sampled at the edges and nodes;
     `wear_per_pressure` is the wear of each (n,) over its mean pressure, mm/MPa. A given pressure is
@@ -141,7 +141,7 @@ def _largest(values: FloatArray) -> FloatArray:
 
 
 def _mean(
-    part: Inside, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_per_pressure: FloatArray
+    part: Chunk, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_per_pressure: FloatArray
 ) -> FloatArray:
     """Return the mean pressure (n,) in MPa from the wear of the cycle, or by the rule where its
     `rule_error` (n,) is smaller."""

@@ -78,34 +78,34 @@ def orbit_of_scene(
     start: float = 0.0,
     deadline: float = np.inf,
 ) -> SceneOrbit:
-    """Count up to `cycles` of a load that repeats, from the wear `start` (mm); after the `deadline`
-    (`time.monotonic()`) nothing is refined."""
+    """Return the orbit of a scene over up to `cycles` of a load that repeats, from the wear `start`
+    (mm); after the `deadline` (`time.monotonic()`) nothing is refined."""
     if model.ends_at_3_sigma:
         request = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
         return count_scenes([request], rtol, deadline)[0]
     one, equation = np.ones(1), WearEquation(model, (load,))
-    found = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
-    last = found.segments[-1]
-    if not found.at_rest[0] or np.isinf(found.after(np.full((1, 1), cycles))[1][0, 0]):
-        return SceneOrbit(found, None)
+    states = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
+    last = states.segments[-1]
+    if not states.at_rest[0] or np.isinf(states.after(np.full((1, 1), cycles))[1][0, 0]):
+        return SceneOrbit(states, None)
     assert isinstance(last.iterates, Iterates)
-    return SceneOrbit(found, End(int(last.begins[0]) + last.iterates.first_idle_cycle, 0, IDLES))
+    return SceneOrbit(states, End(int(last.begins[0]) + last.iterates.first_idle_cycle, 0, IDLES))
 
 
 class Stage(NamedTuple):
-    """Cycles from `begins` to `ends` of one load that repeats, with their orbit, `found`; the error
-    of the wear before propagates into them as `start_error` (mm)."""
+    """Cycles from `begins` to `ends` of one load that repeats, and their `solution`; the error of
+    the wear before propagates into them as `start_error` (mm)."""
 
     load: Load
     begins: int
     ends: float
-    found: SceneOrbit
+    solution: SceneOrbit
     start_error: float
 
     def after(self, cycles: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the wear (mm) after some of the cycles (n,), and its error (mm)."""
         with np.errstate(all="ignore"):
-            wear, relative = self.found.after(cycles - self.begins)
+            wear, relative = self.solution.after(cycles - self.begins)
             absolute = np.where(np.isfinite(relative), relative * wear, np.inf)
         return wear, absolute + self.start_error
 
@@ -113,7 +113,7 @@ class Stage(NamedTuple):
         """Return the cycles after which each wear (mm, (n,)) is reached, infinite where it is not,
         and their own error in cycles."""
         with np.errstate(all="ignore"):
-            count, uncertain = self.found.until(wear)
+            count, uncertain = self.solution.until(wear)
         count = self.begins + count
         late = count > self.ends
         return np.where(late, np.inf, count), np.where(late, 0.0, uncertain)
@@ -121,7 +121,7 @@ class Stage(NamedTuple):
     def notices(self, wear: FloatArray) -> Iterator[str]:
         """Yield the notices on the wear (mm)."""
         after = f"in the block after {self.begins} cycles: "
-        for text in self.found.notices(wear):
+        for text in self.solution.notices(wear):
             yield after * (self.begins > 0) + text
 
 
@@ -135,23 +135,23 @@ def stages(
 ) -> Iterator[Stage]:
     """Yield the stages of a load up to cycle `last`, from the wear `start` (mm) on.
 
-    An error that a block starts with is carried on, in proportion to the wear rate where that
+    The error with which a block starts is carried on, in proportion to the wear rate where that
     grows: two solutions of one equation keep their distance in time. No block follows one whose
-    error is not known, or that ended after the `deadline`.
+    error is unknown, or that ended after the `deadline`.
     """
     start_error, done = 0.0, 0
     while True:
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
-        found = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
-        part = Stage(acting, done, ends, found, 0.0)
+        solution = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
+        stage = Stage(acting, done, ends, solution, 0.0)
         if ends >= last and not start_error:
-            yield part
+            yield stage
             return
-        end, error = (float(x[0]) for x in part.after(np.array([ends])))
+        end, error = (float(x[0]) for x in stage.after(np.array([ends])))
         if start_error:
             start_error *= growth(model, acting, start, end)
-        yield part._replace(start_error=start_error)
+        yield stage._replace(start_error=start_error)
         start, start_error, done = end, start_error + error, until
         if ends >= last or not start_error < np.inf or time.monotonic() > deadline:
             return
@@ -168,19 +168,19 @@ def wear_after(
     """Return the wear u_c (mm) after whole numbers of cycles (n,), to relative accuracy `rtol`.
 
     The load repeats or consists of blocks; `start` is the wear (mm) before. After the `deadline`
-    (`time.monotonic()`) nothing is refined and no other block begun; wear in a block that was not
-    begun is no number, with an infinite error. Where the accuracy was not reached the estimated
-    error says so.
+    (`time.monotonic()`) nothing is refined and no further block begun; the wear in blocks that were
+    not begun is NaN, with an infinite error. Where the accuracy was not reached the estimated error
+    exceeds `rtol`.
     """
     cycles = np.asarray(cycles, dtype=float)
     u, error = np.full(cycles.shape, np.nan), np.full(cycles.shape, np.inf)
     cost, notices = Cost(0, 0), dict[str, None]()
-    for part in stages(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
-        here = (cycles >= part.begins) & (cycles <= part.ends)
-        wear, absolute = part.after(np.append(cycles[here], part.ends))
+    for stage in stages(model, load, np.max(cycles, initial=0.0), rtol, start, deadline):
+        here = (cycles >= stage.begins) & (cycles <= stage.ends)
+        wear, absolute = stage.after(np.append(cycles[here], stage.ends))
         u[here], error[here] = wear[:-1], (absolute / np.where(wear > 0, wear, 1.0))[:-1]
-        cost = cost.plus(*part.found.cost)
-        notices |= dict.fromkeys(part.notices(wear))
+        cost = cost.plus(*stage.solution.cost)
+        notices |= dict.fromkeys(stage.notices(wear))
     return Wear(u, error, cost, tuple(notices))
 
 
@@ -188,24 +188,24 @@ def first_passage(model: Model, load: Loading, wear: FloatArray, rtol: float) ->
     """Return the whole cycles after which each wear u_c (mm, (n,)) is first reached, infinite where
     it is not within the load or 1e12 cycles, and the estimated relative error of their number.
 
-    What is reached but for the estimated error counts as reached; when it is reached for certain,
-    perhaps in another block, is part of the error.
+    A wear counts as reached as soon as it lies within the estimated error; the error spans the
+    cycles until it is reached for certain, perhaps in another block.
     """
     wear = np.asarray(wear, dtype=float)
     count, error = np.full(wear.shape, np.inf), np.zeros(wear.shape)
     doubtful = np.full(wear.shape, False)
-    for part in _as_far_as_needed(model, load, wear, rtol):
-        reached, uncertain = part.until(wear)
-        certain = part.until(wear + part.start_error)[0] if part.start_error else reached
-        if isinstance(load, Blocks) and part.ends < most_cycles(load):
-            end, absolute = part.after(np.array([part.ends]))
+    for stage in _as_far_as_needed(model, load, wear, rtol):
+        reached, uncertain = stage.until(wear)
+        certain = stage.until(wear + stage.start_error)[0] if stage.start_error else reached
+        if isinstance(load, Blocks) and stage.ends < most_cycles(load):
+            end, absolute = stage.after(np.array([stage.ends]))
             certain = np.where(wear > end - absolute, np.inf, certain)  # perhaps in another block
         new = np.isinf(count) & np.isfinite(reached)
         count[new], error[new] = reached[new], uncertain[new]
-        some = doubtful | new
-        known = some & np.isfinite(certain)
+        doubtful |= new
+        known = doubtful & np.isfinite(certain)
         error[known] = np.maximum(error[known], certain[known] - count[known])
-        doubtful = some & ~known
+        doubtful &= ~known
         if np.isfinite(count).all() and not doubtful.any():
             break
     error[doubtful] = np.inf
@@ -223,11 +223,12 @@ def _as_far_as_needed(
         return
     reach = LEAST
     while True:
-        (part,) = stages(model, load, reach, rtol)
-        if reach >= most or part.found.ended or np.max(wear, initial=0.0) <= part.found.last_wear:
+        (stage,) = stages(model, load, reach, rtol)
+        solution = stage.solution
+        if reach >= most or solution.ended or np.max(wear, initial=0.0) <= solution.last_wear:
             break
         reach = min(reach * FARTHER, most)
-    yield part._replace(ends=most)
+    yield stage._replace(ends=most)
 
 
 def sweep(
@@ -239,7 +240,7 @@ def sweep(
     """Return the wear of many scenes, or their names, after the same whole numbers of cycles (n,).
 
     Scenes of one variant of the model whose loads repeat are solved together; variants may be
-    mixed. After two seconds `progress` is told now and then how many scenes are done.
+    mixed. After two seconds `progress` is called at intervals with the number of scenes done.
 
     >>> found = sweep(["section5-k1e-7", "section5", "section5-k1e-5", "section5-k1e-4"], [1, 9000])
     >>> [f"{wear:.6e}" for wear in found.u_c[:, 1]]
@@ -250,15 +251,15 @@ def sweep(
     fewer = [resampled(scene, rtol) for scene in checked_scenes(scenes, rtol, faults)]
     last = float(np.max(numbers, initial=0.0))
 
-    def together(some: Sequence[Scene]) -> Answer:
-        return _orbit(some, last, rtol).after(np.tile(numbers, (len(some), 1)))
+    def together(group: Sequence[Scene]) -> ValueAndError:
+        return _orbit(group, last, rtol).after(np.tile(numbers, (len(group), 1)))
 
-    def alone(scene: Scene) -> Answer:
+    def alone(scene: Scene) -> ValueAndError:
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
-    u, error = _each(fewer, len(numbers), together, alone, progress)
-    for row, each in enumerate(fewer):
-        error[row] += each.wear_error(u[row])
+    u, error = _in_groups(fewer, len(numbers), together, alone, progress)
+    for row, resampling in enumerate(fewer):
+        error[row] += resampling.wear_error(u[row])
     return Sweep(u, error)
 
 
@@ -271,7 +272,7 @@ def cycles_to_depth(
     """Return the whole cycles after which each of many scenes, or their names, first reaches each
     wear (n,), mm.
 
-    After two seconds `progress` is told now and then how many scenes are done.
+    After two seconds `progress` is called at intervals with the number of scenes done.
 
     >>> cycles_to_depth(["section4", "section5"], 1e-3).cycles.tolist()
     [[140.0], [484.0]]
@@ -280,66 +281,66 @@ def cycles_to_depth(
     depths = np.array(wear_depths(wear, faults))
     fewer = [resampled(scene, rtol) for scene in checked_scenes(scenes, rtol, faults)]
 
-    def together(some: Sequence[Scene]) -> Answer:
-        count, error = np.full((2, len(some), len(depths)), np.inf)
-        todo, reach = np.arange(len(some)), LEAST
+    def together(group: Sequence[Scene]) -> ValueAndError:
+        count, error = np.full((2, len(group), len(depths)), np.inf)
+        todo, reach = np.arange(len(group)), LEAST
         while len(todo):
             reach = min(reach * FARTHER, float(MOST_CYCLES))
-            found = _orbit([some[i] for i in todo.tolist()], reach, rtol)
-            cycles, missed = found.until(np.broadcast_to(depths, (len(todo), len(depths))))
+            orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol)
+            cycles, uncertain = orbit.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf
-            count[todo], error[todo] = cycles, missed / np.maximum(cycles, 1.0)
-            more = np.isinf(cycles).any(axis=1) & ~found.at_rest
+            count[todo], error[todo] = cycles, uncertain / np.maximum(cycles, 1.0)
+            more = np.isinf(cycles).any(axis=1) & ~orbit.at_rest
             todo = todo[more] if reach < MOST_CYCLES else todo[:0]
         return count, np.where(np.isinf(count), 0.0, error)
 
-    def alone(scene: Scene) -> Answer:
+    def alone(scene: Scene) -> ValueAndError:
         return first_passage(bind(scene), scene.load, depths, rtol)
 
-    count, error = _each(fewer, len(depths), together, alone, progress)
+    count, error = _in_groups(fewer, len(depths), together, alone, progress)
     return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
 
 
-Answer = tuple[FloatArray, FloatArray]
+ValueAndError = tuple[FloatArray, FloatArray]
 
 
 def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
-    """Return the orbit of scenes of one variant, so many cycles of each."""
+    """Return the orbit of scenes of one variant over so many `cycles`."""
     if scenes[0].contact.ends_at_3_sigma:
         models, loads = [bind(scene) for scene in scenes], [scene.periodic_load for scene in scenes]
-        each = zip(models, loads, edges_of_contact(models, loads), strict=True)
-        requests = [CountRequest(*own, cycles) for own in each]
-        return joined([found.orbit for found in count_scenes(requests, rtol)])
+        parts = zip(models, loads, edges_of_contact(models, loads), strict=True)
+        requests = [CountRequest(*part, cycles) for part in parts]
+        return joined([solution.orbit for solution in count_scenes(requests, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)
 
 
 @np.errstate(all="ignore")
-def _each(
+def _in_groups(
     wanted: Sequence[Resampling],
     number: int,
-    together: Callable[[Sequence[Scene]], Answer],
-    alone: Callable[[Scene], Answer],
+    together: Callable[[Sequence[Scene]], ValueAndError],
+    alone: Callable[[Scene], ValueAndError],
     progress: Callable[[str], None],
-) -> Answer:
-    """Return two numbers (scenes, number) of every scene: of those of one variant `together`, of
-    those whose load consists of blocks each `alone`."""
-    scenes, pace, done = [each.scene for each in wanted], Pace(progress), 0
-    first, second = np.empty((2, len(scenes), number))
+) -> ValueAndError:
+    """Return values and errors (scenes, number): of scenes of one variant all `together`, of a
+    scene with blocks of loads `alone`."""
+    scenes, pace, done = [resampling.scene for resampling in wanted], Pace(progress), 0
+    value, error = np.empty((2, len(scenes), number))
     pace.begin("scene", len(scenes))
     for which in groups(scenes):
-        some = [scenes[i] for i in which.tolist()]
-        lone = isinstance(some[0].load, Blocks)
-        first[which], second[which] = alone(some[0]) if lone else together(some)
+        group = [scenes[i] for i in which.tolist()]
+        single = isinstance(group[0].load, Blocks)
+        value[which], error[which] = alone(group[0]) if single else together(group)
         done += len(which)
         pace.at(done)
-    return first, second
+    return value, error
 
 
 def groups(scenes: Sequence[Scene]) -> Iterator[IntArray]:
-    """Return which scenes are solved together: those of one variant whose loads repeat, no more
-    than go together; with loss of contact only those under loads that are all straight between
-    corners, or all waves; a scene with a load in blocks is alone."""
+    """Yield the scenes that are solved together: those of one variant whose loads repeat, in
+    groups of limited size; with loss of contact only those under loads that are all straight
+    between corners, or all waves. A scene with blocks of loads is alone."""
     kinds: dict[object, list[int]] = {}
     for i, scene in enumerate(scenes):
         kind: object = scene.variant

@@ -25,6 +25,7 @@ DEEPEST = 1e12  # roughnesses of wear: more than in any count
 HALF_DIFFERENCE = 1e-4  # of the roughness: half the step of the central difference in displacement
 USABLE_SHARE = 0.99  # of the wear at which the roughness vanishes
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
+SAME = 1e-9  # of a cycle: phases nearer to its ends are the ends
 
 
 @dataclass(frozen=True)
@@ -64,8 +65,8 @@ class WearEquation:
         near: Tangent | None = None,
     ) -> FloatArray:
         """Return the wear in mm per cycle, times `lengths`, at wear (scenes, starts, intervals,
-        nodes) under a displacement, both in mm. On a compliant support the pressure is sought from
-        that at the end of a tangent."""
+        nodes) under a displacement, both in mm. On a compliant support the root search for the
+        pressure starts from that at the end of a tangent."""
         times = self._period * lengths
         known = near.end / times if self.model.compliant and near is not None else None
         rate: FloatArray = self._model.rate(u, forcing, known)
@@ -130,15 +131,15 @@ def equation_of(scenes: Sequence[Scene]) -> WearEquation:
 
 
 def breakpoints(load: Load) -> FloatArray:
-    """Return the phases from 0 to 1 that intervals may not straddle (kinks), near which nodes
-    should cluster (peaks), or where a smooth pulse ends (about a quarter of the way to the next
-    peak)."""
+    """Return the phases from 0 to 1 that cut a cycle: kinks, across which the load is not smooth;
+    peaks, near which nodes should cluster; and the phases a quarter of the way from peak to peak,
+    where a smooth pulse ends."""
     inner = {*load.kinks, *load.peaks}
     if not load.kinks and load.minimum < load.maximum:
         for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
             quarter = (after - peak) / 4
             inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}
-    return np.array([0.0, *sorted(x for x in inner if 1e-9 < x < 1.0 - 1e-9), 1.0])
+    return np.array([0.0, *sorted(x for x in inner if SAME < x < 1.0 - SAME), 1.0])
 
 
 def growth(model: Model, load: Load, start: float, end: float) -> float:
@@ -157,9 +158,9 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     cancellation = (initial + np.abs(sigma - initial)) / sigma  # where roughness vanishes
     terms = np.abs(fields.h) * (1 + cancellation) + np.abs(displacement)
     terms += np.abs(getattr(fields, "U_c", 0.0))
-    apart = HALF_DIFFERENCE * sigma
-    more, less = (model.rate(wear, displacement + sign * apart) for sign in (1.0, -1.0))
-    steepness = np.abs(more - less) / (2 * apart * (np.minimum(more, less) + TINY))
+    half = HALF_DIFFERENCE * sigma
+    more, less = (model.rate(wear, displacement + sign * half) for sign in (1.0, -1.0))
+    steepness = np.abs(more - less) / (2 * half * (np.minimum(more, less) + TINY))
     underflow = SMALLEST / np.maximum(less, SMALLEST)
     result: FloatArray = ROUNDOFF * (8 + steepness * terms) + underflow
     return result

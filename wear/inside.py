@@ -23,7 +23,7 @@ CHUNK = 32_000  # states computed at once: their arrays stay in the processor's 
 BATCH = 10_000  # cycles whose wear at the start is computed at once
 
 
-class Inside(NamedTuple):
+class Chunk(NamedTuple):
     """A chunk of a history: whole `cycles` (n,), `phases` (m,) in [0, 1], bearing wear `u` (n, m)
     in mm at (cycles + phases) T, all `fields` (n, m), in mm and MPa, and the estimated `error`
     (n,) of u, relative to the wear at the end of the cycle."""
@@ -47,7 +47,7 @@ def fields_inside(
     phases: FloatArray,
     rtol: float = 1e-12,
     chunk: int = CHUNK,
-) -> Iterator[Inside]:
+) -> Iterator[Chunk]:
     """Yield the state at every phase of every cycle, about `chunk` states at a time.
 
     Parameters
@@ -61,7 +61,7 @@ def fields_inside(
 
     Yields
     ------
-    Inside
+    Chunk
         rows of the history, in ascending numbers of cycles; memory is bounded by the chunk.
 
     Raises
@@ -89,13 +89,13 @@ def _dense(
     model: Model, stage: Stage, phases: FloatArray, rtol: float, cycles: FloatArray
 ) -> Iterator[tuple[float, float, DenseOutput | SwitchedDenseOutput]]:
     """Yield the parts of a stage that contain some of the `cycles`: the first cycle, the one after
-    the last, and the dense output at the phases."""
+    the last, and the dense output at the phases of each part."""
     if model.ends_at_3_sigma:
         if np.any((cycles >= stage.begins) & (cycles < stage.ends)):
             output = switched_dense_output(model, stage.load, phases, rtol)
             yield stage.begins, stage.ends, output
         return
-    equation, segments = WearEquation(model, (stage.load,)), stage.found.orbit.segments
+    equation, segments = WearEquation(model, (stage.load,)), stage.solution.orbit.segments
     begins = [stage.begins + float(segment.begins[0]) for segment in segments]
     observable = model.pressure if model.compliant else None
     for begin, end, segment in zip(begins, [*begins[1:], stage.ends], segments, strict=True):
@@ -113,8 +113,8 @@ class _DensePart(NamedTuple):
     phases: FloatArray
     begins: float
 
-    def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Inside]:
-        """Yield the states in `cycles` (n,), for `at_once` cycles at a time."""
+    def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Chunk]:
+        """Yield the states in the `cycles` (n,), `at_once` at a time."""
         # Where the wear rate rises or contact grazes, an error grows within the cycle.
         ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
         wear, wear_error = self.stage.after(ends)
@@ -126,7 +126,7 @@ class _DensePart(NamedTuple):
             u = starts[rows, None] + added.increment
             absolute = wear_error[rows] + SAFETY * added.error
             error = np.nan_to_num(absolute / (wear[last[rows]] + TINY), nan=np.inf)
-            yield Inside(cycles[rows], self.phases, u, self.fields(u, added, rtol), error)
+            yield Chunk(cycles[rows], self.phases, u, self.fields(u, added, rtol), error)
 
     def fields(self, u: FloatArray, added: PhaseIncrements, rtol: float) -> Fields:
         """Return all fields; on a compliant support from the interpolated pressure, if that is

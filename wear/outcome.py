@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from wear.orbit.problem import Cost
 
+STOPS = "wear stops for good in cycle {}"
+FADES = "wear approaches its limit; within rounding from cycle {} on"
+
 
 class Outcome(NamedTuple):
     """Wear `u` (mm) by a `method` after the `cycles` reached, in ascending order, its estimated

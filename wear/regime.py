@@ -31,9 +31,9 @@ from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
 from wear.offset import offset
+from wear.outcome import FADES
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene
-from wear.scene_orbit import FADES
 from wear.solver import solve
 
 TOLERANCE = Decimal("1e-6")

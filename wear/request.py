@@ -87,7 +87,7 @@ def check_rtol(rtol: float, faults: Faults, least: float = LEAST_RTOL) -> None:
 def checked_scenes(
     scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: Faults
 ) -> list[Scene]:
-    """Return the scenes of a request for many, or raise its `faults`, these checks' included."""
+    """Return the scenes of a request, or raise its `faults` and those of these checks."""
     check_rtol(rtol, faults)
     if isinstance(scenes, str) or not isinstance(scenes, Sequence):
         faults.append("scenes: give a list of them")
@@ -101,7 +101,7 @@ def obstacle(scene: Scene) -> str | None:
 
 
 def is_smooth_history(scene: Scene) -> bool:
-    """Return whether the load is a measured history, and contact does not jump."""
+    """Return whether the load is a measured history along which contact is not lost."""
     return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
 
 

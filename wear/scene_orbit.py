@@ -12,8 +12,6 @@ from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit
 
-STOPS = "wear stops for good in cycle {}"
-FADES = "wear approaches its limit; within rounding from cycle {} on"
 IDLES = "from cycle {} on a cycle adds less than double precision resolves"
 
 

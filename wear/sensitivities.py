@@ -31,7 +31,12 @@ from wear.loss_of_contact.tangent import stage_tangents
 from wear.numerics.gauss import BoolArray, FloatArray
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Tangents, tangents
-from wear.parameters import no_such_number, parameters_of, parametrised
+from wear.parameters import (
+    ParametrisedEquation,
+    no_such_number,
+    parameters_of,
+    parametrised,
+)
 from wear.progress import Pace
 from wear.request import checked_request, checked_scenes, obstacle
 from wear.scene import Scene, as_scene
@@ -88,19 +93,19 @@ def gradients(
     pace.begin("scene", len(scenes))
     for rows in groups(scenes):
         group, parts = _divided([scenes[i] for i in rows.tolist()])
-        part, _ = _of_one_variant(group, keys, cycles * parts, rtol, pace.say)
+        of_group, _ = _of_one_variant(group, keys, cycles * parts, rtol, pace.say)
         done += len(rows)
         pace.at(done)
         per_key = np.array([1.0 / parts if key == PERIOD else 1.0 for key in keys])[:, None]
-        result.wear[rows] = part.u
-        result.derivative[rows] = part.derivative * per_key
-        result.error[rows] = part.derivative_error * per_key
+        result.wear[rows] = of_group.u
+        result.derivative[rows] = of_group.derivative * per_key
+        result.error[rows] = of_group.derivative_error * per_key
     return result
 
 
 def _divided(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
-    """Return scenes under constant loads with their period, which only counts cycles, divided so
-    that the wear of the first part is small; and the number of parts."""
+    """Return the scenes, and the number of parts into which their period is divided: under constant
+    loads, where a period only counts cycles, so that the wear of the first part is small."""
     if not all(isinstance(scene.load, Constant) for scene in scenes):
         return scenes, 1.0
     parts = 1.0
@@ -132,15 +137,13 @@ def _of_one_variant(
     say: Callable[[str], None],
 ) -> tuple[Tangents, BoolArray]:
     """Return the derivatives of the wear of scenes of one variant, and whether contact grazes in
-    each before any wear; scenes with blocks of loads come one at a time, and report each block to
+    each before any wear. A scene with blocks of loads comes alone, and reports each block to
     `say`."""
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     result = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
-    start, start_error = np.zeros((2, number))
-    slope, slope_error = np.zeros((2, number, len(keys)))
-    grazes = np.full(number, False)
-    done = 0
+    begin = *np.zeros((2, number)), *np.zeros((2, number, len(keys)))
+    grazes, done = np.full(number, False), 0
     while True:
         acting = [span(scene.load, done) for scene in scenes]
         end = min(float(acting[0].until), last)
@@ -153,33 +156,42 @@ def _of_one_variant(
             edges = edges_of_contact([e.model for e in single], [e.loads[0] for e in single])
             if done == 0:
                 grazes[:] = [_grazes(e, edge) for e, edge in zip(single, edges, strict=True)]
-            begins = zip(requested[:, -1], start, start_error, strict=True)
-            counts = count_scenes(
-                [
-                    CountRequest(e.model, e.loads[0], edge, *map(float, begin))
-                    for e, edge, begin in zip(single, edges, begins, strict=True)
-                ],
-                rtol,
-            )
-            rows = [
-                stage_tangents(*scene, requested[:1], rtol, slope[[i]], slope_error[[i]])
-                for i, scene in enumerate(zip(counts, single, edges, strict=True))
-            ]
-            part = Tangents(*map(np.concatenate, zip(*rows, strict=True)))
+            stage = _with_loss_of_contact(single, edges, requested[0], rtol, begin)
         else:
             equation = parametrised(scenes, acting, keys)
-            count = orbit(equation, requested[:, -1], rtol, start, start_error, keep=True)
-            part = tangents(equation, count, requested, rtol, slope, slope_error)
-        for array, values in zip(result, part, strict=True):
+            states = orbit(equation, requested[:, -1], rtol, begin[0], begin[1], keep=True)
+            stage = tangents(equation, states, requested, rtol, begin[2], begin[3])
+        for array, values in zip(result, stage, strict=True):
             array[..., within] = values[..., :-1]
-        start, start_error = part.u[:, -1], part.error[:, -1] * part.u[:, -1]
-        slope, slope_error = part.derivative[..., -1], part.derivative_error[..., -1]
-        if end >= last or not np.isfinite(start_error).all():
+        u, error, *derivative = (values[..., -1] for values in stage[:4])
+        begin = u, error * u, *derivative
+        if end >= last or not np.isfinite(begin[1]).all():
             break
         done = acting[0].until
     unknown = np.isnan(result.derivative_error)
     error = np.where(unknown, np.inf, result.derivative_error)
     return result._replace(derivative_error=error), grazes
+
+
+def _with_loss_of_contact(
+    equations: Sequence[ParametrisedEquation],
+    edges: Sequence[Edge],
+    cycles: FloatArray,
+    rtol: float,
+    begin: Sequence[FloatArray],
+) -> Tangents:
+    """Return the derivatives of the wear after `cycles` (n,) of a stage, scene by scene; at its
+    `begin` are known the wear (s,) with its error, and the derivatives (s, k) with theirs."""
+    requests = [
+        CountRequest(equation.model, equation.loads[0], edge, float(cycles[-1]), float(u), float(e))
+        for equation, edge, u, e in zip(equations, edges, *begin[:2], strict=True)
+    ]
+    scenes = zip(count_scenes(requests, rtol), equations, edges, strict=True)
+    rows = [
+        stage_tangents(*scene, cycles[None], rtol, begin[2][[i]], begin[3][[i]])
+        for i, scene in enumerate(scenes)
+    ]
+    return Tangents(*map(np.concatenate, zip(*rows, strict=True)))
 
 
 def _grazes(equation: WearEquation, edge: Edge) -> bool:
@@ -223,8 +235,8 @@ class Sensitivities:
 
     @property
     def cycles_derivative(self) -> FloatArray:
-        """Return the derivative (k, n) of the number of cycles to the wear that there is after
-        `cycles`: the number that makes up for the change of the wear, at the wear per cycle."""
+        """Return the derivative (k, n) of the number of cycles to the wear reached after `cycles`:
+        minus that of the wear, over the wear per cycle."""
         with np.errstate(all="ignore"):
             return -self.derivative / self.wear_per_cycle_mm
 

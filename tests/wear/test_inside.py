@@ -16,7 +16,7 @@ from wear.binding import bind
 from wear.cycles import orbit_of_scene, wear_after
 from wear.equation import equation_of
 from wear.faults import UsageError
-from wear.inside import Inside, fields_inside
+from wear.inside import Chunk, fields_inside
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import Rules, integrate
@@ -33,13 +33,13 @@ def scene_of(name: str) -> Scene:
     return reference_scene(name) if name in REFERENCE else load_scene(name)
 
 
-def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> Inside:
+def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> Chunk:
     """All chunks as one."""
     parts = list(fields_inside(bind(scene), scene.load, cycles, phases))
     fields = [
         np.concatenate(column) for column in zip(*(part.fields for part in parts), strict=True)
     ]
-    return Inside(
+    return Chunk(
         np.concatenate([part.cycles for part in parts]),
         phases,
         np.concatenate([part.u for part in parts]),

@@ -20,7 +20,7 @@ import numpy as np
 
 from wear.direct import loss_of_contact
 from wear.direct.loss_of_contact import Mode
-from wear.direct.problem import EPS, Setting, WearODE, scaled_ode, widest_step
+from wear.direct.problem import Setting, WearODE, scaled_ode, widest_step
 from wear.direct.step import (
     FINEST_TOLERANCE,
     METHODS,
@@ -31,9 +31,10 @@ from wear.direct.step import (
 from wear.load import Loading
 from wear.load.spans import span
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
 from wear.orbit.problem import Cost
-from wear.outcome import Outcome
+from wear.outcome import FADES, STOPS, Outcome
 from wear.progress import Pace
 
 __all__ = ["METHODS", "integrate"]
@@ -44,7 +45,7 @@ SHORTENING = 0.8  # of the longest step, from run to run
 SAFETY = 4.0  # factor on the error estimated from the difference of two runs
 CORRELATED = {"BDF": 3.0, "LSODA": 3.0}  # the errors of multistep methods' steps cancel less well
 FEWEST_STEPS = 100  # added to the number of steps when their errors are summed
-INPUT_ROUNDOFF = 16 * EPS  # of the rate, from that of the scene's numbers in the law's exponent
+INPUT_ROUNDOFF = 16 * ROUNDOFF  # of the rate, by that of the scene's numbers in the exponent
 
 
 class Integration(NamedTuple):
@@ -231,11 +232,11 @@ def _errors(runs: Sequence[Integration], uncertainty: float) -> FloatArray:
     size = len(wear)
     distance = np.full(size, uncertainty)
     for other in others:
-        gain = np.sqrt(last.setting.tolerance / other.setting.tolerance)
+        ratio = np.sqrt(last.setting.tolerance / other.setting.tolerance)
         if uncertainty > 0.0:
-            gain = max(gain, 1.0 / SAFETY)
+            ratio = max(ratio, 1.0 / SAFETY)
         difference = np.maximum.accumulate(np.abs(other.wear()[:size] - wear))
-        distance = np.maximum(distance, SAFETY * gain * difference)
+        distance = np.maximum(distance, SAFETY * ratio * difference)
     steps = np.array([state.steps for state in last.states], dtype=float)
     per_step = last.setting.tolerance * CORRELATED.get(last.setting.method, 1.0)
     floor = INPUT_ROUNDOFF + per_step * np.sqrt(FEWEST_STEPS + steps)
@@ -246,10 +247,8 @@ def _errors(runs: Sequence[Integration], uncertainty: float) -> FloatArray:
 def _notices(states: Sequence[State]) -> Iterator[str]:
     """Yield a notice with the cycle in which wear stopped, if it did."""
     ended = next((state for state in states if state.arrested_in is not None), None)
-    if ended is not None and ended.fades:
-        yield f"wear approaches its limit; within rounding from cycle {ended.arrested_in} on"
-    elif ended is not None:
-        yield f"wear stops for good in cycle {ended.arrested_in}"
+    if ended is not None:
+        yield (FADES if ended.fades else STOPS).format(ended.arrested_in)
 
 
 def _best(runs: list[Integration], uncertainty: float) -> tuple[list[State], FloatArray]:

@@ -22,13 +22,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Real, Setting, WearODE, widest_step
+from wear.direct.problem import Real, Setting, WearODE, widest_step
 from wear.direct.step import EndOfModelError, Meter, first_zero, leg
 from wear.load import Load
 from wear.loss_of_contact.edge import turning_points
 from wear.model import Model
+from wear.numerics.floating_point import ROUNDOFF, TINY
 
-TINY = float(np.finfo(float).tiny)
 SLIDING_SAMPLES = 64  # phases of a piece at which the end of sliding is sought
 PEAK_OFFSET = 1e-12  # of a piece: distance from a peak at which its sharpness is examined
 MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
@@ -61,7 +61,7 @@ class Moment(NamedTuple):
 def pieces(load: Load) -> tuple[Section, ...]:
     """Cut a cycle where the load turns or has a kink."""
     cuts = turning_points(load).tolist()
-    ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * EPS]
+    ends = [cut for before, cut in pairwise(cuts) if cut - before > 4 * ROUNDOFF]
     return tuple(Section(a, b, bool(load(b) >= load(a))) for a, b in pairwise([0.0, *ends]))
 
 
@@ -115,7 +115,7 @@ def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
 def roundoff(model: Model, u: Real, U_a: Real) -> Real:
     """Return the uncertainty of the margin (mm)."""
     now = model.fields(u, U_a)
-    return 16 * EPS * (now.sigma + np.abs(now.h) + np.abs(U_a))
+    return 16 * ROUNDOFF * (now.sigma + np.abs(now.h) + np.abs(U_a))
 
 
 def cycle(
@@ -228,7 +228,7 @@ def _edge_wear(ode: WearODE, phase: Real, u: Real) -> Real:
     for _ in range(50):
         step = ode.model.margin(u, U_a) / ode.model.margin_slope(u, U_a)
         u = u - step
-        if np.all(np.abs(step) <= 4 * EPS * np.abs(u)):
+        if np.all(np.abs(step) <= 4 * ROUNDOFF * np.abs(u)):
             break
     return u
 

@@ -14,9 +14,9 @@ import numpy as np
 
 from wear.load import Load
 from wear.model import Model
+from wear.numerics.floating_point import TINY
 
 Real = Any  # a float or an array of floats: loads and models broadcast
-EPS = float(np.finfo(float).eps)
 PHASES = 2048  # samples of a cycle for estimates of scale and sharpness
 STEP_PER_PULSE = 0.75  # longest step over the standard deviation of a contact pulse
 DEPTH = 20.0  # closure in roughnesses up to which the contact law is sampled
@@ -100,7 +100,7 @@ def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
     touching = load.maximum + min(float(deepest.h), 0.0)
     displacement = touching - float(deepest.sigma) * np.linspace(0.0, DEPTH, 81)
     rate = np.asarray(model.rate(u, displacement))
-    positive = rate > np.finfo(float).tiny
+    positive = rate > TINY
     if np.count_nonzero(positive) < 2:
         return 0.0
     return float(np.max(np.diff(np.log(rate[positive])) / np.diff(displacement[positive])))

@@ -13,11 +13,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.direct.problem import EPS, Real, Setting, WearODE
+from wear.direct.problem import Real, Setting, WearODE
+from wear.numerics.floating_point import ROUNDOFF
 from wear.progress import Pace
 
 METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
-FINEST_TOLERANCE = 110 * EPS  # SciPy accepts no relative tolerance below 100 units of roundoff
+FINEST_TOLERANCE = 110 * ROUNDOFF  # SciPy accepts no relative tolerance below 100 units of roundoff
 NEAR = 1e-6  # of a cycle: largest error of the interpolated end of contact
 SAMPLES_PER_STEP = 8  # at which a step is searched for the end of contact
 
@@ -205,4 +206,5 @@ def first_zero(function: Callable[[float], Any], start: float, end: float) -> fl
     first, last = float(function(start)), float(function(end))
     if first * last >= 0.0:
         return start if abs(first) <= abs(last) else end
-    return float(brentq(function, start, end, xtol=EPS * max(1.0, abs(end)), rtol=8 * EPS))
+    near = ROUNDOFF * max(1.0, abs(end))
+    return float(brentq(function, start, end, xtol=near, rtol=8 * ROUNDOFF))

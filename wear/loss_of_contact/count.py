@@ -53,7 +53,8 @@ from wear.orbit.iterates import Iterates
 from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
-from wear.scene_orbit import FADES, STOPS, End, SceneOrbit
+from wear.outcome import FADES, STOPS
+from wear.scene_orbit import End, SceneOrbit
 
 FEW = 4.0  # cycles to the next grazing wear: these are integrated
 KEPT = 5  # cycles integrated one by one even when there is no time left
