@@ -33,6 +33,12 @@ def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
         assert read_rows(TableFile("a.csv"), tmp_path).values.tolist() == [5.0, number]
 
 
+def test_a_point_beside_decimal_commas_may_separate_thousands(tmp_path):
+    (tmp_path / "a.csv").write_text("t_s;U_a_mm\n0;1,5\n1;1.250\n")
+    with pytest.raises(ValidationError, match=r'line 3: U_a_mm is "1\.250"'):
+        read_rows(TableFile("a.csv", delimiter=";", decimal=","), tmp_path)
+
+
 def test_as_many_rows_as_may_be_are_read(tmp_path, monkeypatch):
     monkeypatch.setattr(csv_file, "MOST_ROWS", 20_000)  # of a million
     times = np.arange(20_000) / 1024

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.faults import MOST_FAULTS_SHOWN, Faults, UsageError
-from wear.load.csv_file import UTF_16_MARKS, read_bytes
+from wear.input_files import UTF_16_MARKS, find_rows, number_in, read_bytes
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.words import is_path, shown
@@ -21,7 +20,6 @@ from wear.words import is_path, shown
 MOST_BYTES = 16 * 1024 * 1024
 WEAR = {"wear_mm": 1.0, "wear_um": 1e-3}  # column: mm a unit
 DELIMITERS = (",", ";", "\t")  # the decimal sign may be a comma where the first is not
-MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
 
 # The condition on the numbers of a column, and its message.
 _CHECKS: dict[str, tuple[Callable[[FloatArray], NDArray[np.bool_]], str]] = {
@@ -90,25 +88,26 @@ def read_readings(path: str | os.PathLike[str], ignore: Sequence[str] = ()) -> S
         text = data.decode("utf-16" if data.startswith(UTF_16_MARKS) else "utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
-    delimiter, rows = _from_header(text.splitlines())
-    if not rows:
+    found = find_rows(text, DELIMITERS, lambda names: "cycles" in map(_name, names))
+    if found is None:
         raise UsageError(
             f"{path}: there is no column cycles: name the columns in a line above the readings, "
             "cycles and wear_mm or wear_um (a time over load.period_s is a number of cycles)"
         )
-    (_, names), *body = rows
+    names, body = [*map(_name, found.names)], [*found.rows]
     faults = [
-        f"line {number}: {len(row)} entries, but the header has {len(names)}"
-        for number, row in body
-        if len(row) != len(names)
+        f"line {number}: {len(cells)} entries, but the header has {len(names)}"
+        for number, cells in body
+        if len(cells) != len(names)
     ]
     if len(set(names)) < len(names):
         faults.append("a column is named twice")
     specimens: Specimens = ()
     if not faults:
-        columns = {name: [row[i] for _, row in body] for i, name in enumerate(names)}
+        columns = {name: [cells[i] for _, cells in body] for i, name in enumerate(names)}
+        commas = found.delimiter != "," and any("," in cell for _, cells in body for cell in cells)
         lines = [f"line {number}" for number, _ in body]
-        specimens, faults = _specimens(columns, ignore, lines, delimiter)
+        specimens, faults = _specimens(columns, ignore, lines, "," if commas else ".")
     Faults(f"{path}: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]).stop_if_any()
     return specimens
 
@@ -126,23 +125,6 @@ def readings_of(columns: Mapping[str, Iterable[Any]], ignore: Sequence[str]) -> 
     found, faults = _specimens(entries, ignore, rows)
     Faults(f"data: {fault}" for fault in faults[:MOST_FAULTS_SHOWN]).stop_if_any()
     return found
-
-
-def _from_header(lines: Sequence[str]) -> tuple[str, list[tuple[int, list[str]]]]:
-    """Return the delimiter, and the rows with their line numbers from the header on; no rows if no
-    line names a column `cycles`."""
-    for place, line in enumerate(lines[:MOST_HEAD_LINES]):
-        for delimiter in DELIMITERS:
-            names = [_name(cell) for cell in _cells(line, delimiter)]
-            if "cycles" in names:
-                rows = [_cells(each, delimiter) for each in lines[place + 1 :]]
-                numbered = enumerate([names, *rows], start=place + 1)
-                return delimiter, [(number, row) for number, row in numbered if any(row)]
-    return "", []
-
-
-def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
 
 
 def _name(cell: str) -> str:
@@ -169,18 +151,20 @@ def _specimens(
     entries: Mapping[str, Sequence[Any]],
     ignore: Sequence[str],
     rows: Sequence[str],
-    delimiter: str = ",",
+    decimal: str = ".",
 ) -> tuple[Specimens, list[str]]:
     """Return the specimens of columns of equal length, and the faults of their entries."""
     if faults := [*_faults_of_names(list(entries), ignore)]:
         return (), faults
     columns = {name: column for name, column in entries.items() if name not in ignore}
     names = [str(name) for name in columns.pop("specimen", [""] * len(rows))]
-    if delimiter != ",":
-        columns, faults = _with_points(columns, rows)
-    numbers = {name: np.array([*map(_number, column)]) for name, column in columns.items()}
-    faults += [
-        f"{rows[i]}: {name} {rule}"
+    numbers = {
+        name: np.array([_number(entry, decimal) for entry in column])
+        for name, column in columns.items()
+    }
+    hint = " (without points: the decimal sign is a comma)" if decimal == "," else ""
+    faults = [
+        f"{rows[i]}: {name} {rule}{hint}"
         for name, (meets, rule) in _CHECKS.items()
         if name in numbers
         for i in np.flatnonzero(~meets(numbers[name])).tolist()
@@ -210,23 +194,8 @@ def _specimens(
     return tuple(specimens), faults
 
 
-def _with_points(
-    columns: Mapping[str, Sequence[str]], rows: Sequence[str]
-) -> tuple[dict[str, Sequence[str]], list[str]]:
-    """Return columns with points for decimal commas, and a fault for every entry that has a point
-    as well: it may separate thousands."""
-    commas = any("," in entry for column in columns.values() for entry in column)
-    faults = [
-        f"{row}: {shown(entry)} has a point, but other numbers a decimal comma; drop the point"
-        for column in columns.values()
-        for row, entry in zip(rows, column, strict=True)
-        if commas and "." in entry
-    ]
-    return {name: [x.replace(",", ".") for x in column] for name, column in columns.items()}, faults
-
-
-def _number(entry: Any) -> float:
+def _number(entry: Any, decimal: str) -> float:
     try:
-        return float(entry)
+        return number_in(entry, decimal) if isinstance(entry, str) else float(entry)
     except (TypeError, ValueError):
         return np.nan

@@ -7,11 +7,8 @@ Key results
 
 from __future__ import annotations
 
-import codecs
 import hashlib
 import json
-import re
-import stat
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
@@ -19,6 +16,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import AfterValidator, Field, PlainValidator, ValidationError
 
+from wear.input_files import UTF_16_MARKS, cells_of, find_rows, number_in, read_bytes
 from wear.numerics.gauss import FloatArray
 from wear.validation import (
     BOUNDS,
@@ -39,9 +37,6 @@ from wear.words import shown
 MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
 MOST_WRONG_ROWS = 5
-MOST_HEAD_LINES = 100  # before the names of the columns, as instruments write them
-MISSING = "there is no such file"
-UTF_16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 CLOSEST_ROWS = 1e-12  # of the time: nearer rows could fall on the same phase
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "min": 60.0, "h": 3600.0}
 MILLIMETRES = {"mm": 1.0, "um": 1e-3, "µm": 1e-3, "nm": 1e-6, "m": 1e3}
@@ -173,10 +168,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
     name = form.file
     if folder is None:
         raise wrong("there is no folder to look in", "load the scene by its path", "file")
-    path = folder / name
-    if _is_device(path):
-        raise wrong(f"{shown(name)} is not an ordinary file", "give a CSV file", "file")
-    data = read_bytes(path, MOST_BYTES)
+    data = read_bytes(folder / name, MOST_BYTES)
     if isinstance(data, tuple):
         problem, remedy = data
         place = shown(str(folder.absolute()), most=1000)
@@ -210,33 +202,6 @@ def order_faults(times: FloatArray) -> list[LineFault]:
     return faults
 
 
-def read_bytes(path: Path, most: int) -> bytes | tuple[str, str]:
-    """Return at most `most` bytes of a file, or its fault and the remedy."""
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(most + 1)
-    except FileNotFoundError:
-        return MISSING, "check the name and the folder"
-    except IsADirectoryError:
-        return "is a folder", "give a file"
-    except PermissionError:
-        return "may not be read", "check its permissions"
-    except (OSError, ValueError) as error:
-        return f"cannot be read ({getattr(error, 'strerror', None) or error})", "check the file"
-    if len(data) > most:
-        return f"is larger than {most // 1024} KiB", "give a smaller file"
-    return data
-
-
-def _is_device(file: Path) -> bool:
-    """Return whether reading the file might never end."""
-    try:
-        mode = file.stat().st_mode
-    except OSError:
-        return False  # the attempt to read it reports the fault
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
-
-
 LineFault = tuple[int, str, str]
 """Number of a line, its fault, and the remedy."""
 
@@ -249,69 +214,54 @@ def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
 
 def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
     """Return the two columns, or raise the faults of the first few faulty lines."""
-    split = re.split("\r\n?|\n", text)
-    lines = [(n, line) for n, line in enumerate(split, start=1) if line.strip()]
-    heads = (_cells(line, form) for _, line in lines[:MOST_HEAD_LINES])
-    head = next((n for n, cells in enumerate(heads) if set(form.columns) <= set(cells)), None)
-    if head is None:
-        raise _wrong_lines(form, _header_fault(lines[0] if lines else (1, ""), form))
-    cells = _cells(lines[head][1], form)
-    number, rows = lines[head][0], lines[head + 1 :]
-    if twice := [name for name in form.columns if cells.count(name) > 1]:
+    found = find_rows(text, form.delimiter, lambda names: set(form.columns) <= {*names})
+    if found is None:
+        raise _wrong_lines(form, _header_fault(text, form))
+    if twice := [name for name in form.columns if found.names.count(name) > 1]:
         problem, remedy = f"two columns are called {shown(twice[0])}", "rename one of them"
-        raise _wrong_lines(form, (number, problem, remedy))
-    if not 2 <= len(rows) <= MOST_ROWS:
-        problem = f"the number of rows below is {len(rows)}"
-        raise _wrong_lines(form, (number, problem, f"give from 2 to {MOST_ROWS}"))
-    return _columns(rows, form, cells, from_first)
-
-
-def _cells(line: str, form: RowsFile) -> list[str]:
-    return [cell.strip().strip('"') for cell in line.split(form.delimiter)]
-
-
-def _columns(
-    rows: list[tuple[int, str]], form: RowsFile, header: list[str], from_first: bool
-) -> FloatArray:
-    """Return both columns, or raise the faults of the first few faulty rows."""
-    places = [header.index(name) for name in form.columns]
+        raise _wrong_lines(form, (found.line, problem, remedy))
+    places = [found.names.index(name) for name in form.columns]
     numbers: list[int] = []
-    valid: list[list[float | None]] = []
+    valid: list[list[float]] = []
     faults: list[LineFault] = []
-    for number, line in rows:
-        cells = line.split(form.delimiter)
-        row = [_number(cells[at], form) for at in places if len(cells) == len(header)]
-        if not row:
-            problem = f'"{shown(line.strip())}" has {len(cells)} cells, the header {len(header)}'
-            remedy = "give one for each column; delimiter and decimal say how the file is written"
-            faults.append((number, problem, remedy))
-        elif None in row:
-            at = places[row.index(None)]
-            problem = f'{shown(header[at])} is "{shown(cells[at].strip())}"'
-            remedy = f"give a number without unit, such as 0{form.decimal}5; {BOUNDS}"
-            faults.append((number, problem, remedy))
-        else:
+    for number, cells in found.rows:
+        complete = len(cells) == len(found.names)
+        row = [number_in(cells[at], form.decimal) for at in places if complete]
+        if complete and all(map(is_sane, row)):
             numbers.append(number)
             valid.append(row)
+            continue
+        if complete:
+            at = next(at for at, value in zip(places, row, strict=True) if not is_sane(value))
+            problem = f'{shown(found.names[at])} is "{shown(cells[at])}"'
+            remedy = f"give a number without unit, such as 0{form.decimal}5; {BOUNDS}"
+        else:
+            line = shown(form.delimiter.join(cells))
+            problem = f'"{line}" has {len(cells)} cells, the header {len(found.names)}'
+            remedy = "give one for each column; delimiter and decimal say how the file is written"
+        faults.append((number, problem, remedy))
         if len(faults) == MOST_WRONG_ROWS:
             break
     columns = np.array(valid, dtype=float).reshape(-1, 2).T
     if valid:
         columns[0] -= columns[0, 0] if from_first else 0.0
         faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
+    if not faults and not 2 <= len(valid) <= MOST_ROWS:
+        problem = f"the number of rows below is {len(valid)}"
+        faults.append((found.line, problem, f"give from 2 to {MOST_ROWS}"))
     if faults:
         raise _wrong_lines(form, *sorted(faults)[:MOST_WRONG_ROWS])
     return columns
 
 
-def _header_fault(first: tuple[int, str], form: RowsFile) -> LineFault:
-    line, header = first[0], first[1].strip()
+def _header_fault(text: str, form: RowsFile) -> LineFault:
+    lines = enumerate(map(str.strip, text.splitlines()), start=1)
+    line, header = next((each for each in lines if each[1]), (1, ""))
     wanted = form.delimiter.join(form.columns)
-    if len(_cells(header, form)) > 1 and all(
-        _number(cell, form) is not None for cell in _cells(header, form)
-    ):
+    cells = cells_of(header, form.delimiter)
+    if len(cells) > 1 and all(is_sane(number_in(cell, form.decimal)) for cell in cells):
         return line, "the columns have no names", f"put the line {wanted} above the numbers"
-    names = [*_cells(header, form), "...", "..."][:2] if header else ["...", "..."]
+    names = [*cells, "...", "..."][:2] if header else ["...", "..."]
     remedy = f"begin with {wanted}, or say columns = {json.dumps(names, ensure_ascii=False)}"
     if other := next((sign for sign in ";\t" if sign in header and sign != form.delimiter), ""):
         remedy = (
@@ -319,12 +269,3 @@ def _header_fault(first: tuple[int, str], form: RowsFile) -> LineFault:
             f"say how the file is written: delimiter = {json.dumps(other)}, decimal = ..."
         )
     return line, f"the columns are {shown(header) or 'missing'}", remedy
-
-
-def _number(cell: str, form: RowsFile) -> float | None:
-    """Return the number of a cell, quoted or not; None unless it is a number of sane size."""
-    try:
-        number = float(cell.strip().strip('"').replace(form.decimal, "."))
-    except ValueError:
-        return None
-    return number if is_sane(number) else None

@@ -20,9 +20,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, PlainValidator, ValidationError, model_validator
 
 from wear.faults import Fault, SceneError, UsageError
+from wear.input_files import MISSING, read_bytes
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.conversion import as_table, load_from_table
-from wear.load.csv_file import MISSING, read_bytes
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 from wear.scene.text import MOST_BYTES, PARTS, Source, read_tables, set_entry
 from wear.scene.variant import KEYS, PIN_PARAMETERS, VariantKey

@@ -10,7 +10,7 @@ from pydantic import Field, PlainValidator, ValidationInfo
 
 from wear import own_laws
 from wear.faults import UsageError
-from wear.load.csv_file import read_bytes
+from wear.input_files import read_bytes
 from wear.scene.text import MOST_BYTES
 from wear.validation import (
     Finding,
