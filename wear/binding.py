@@ -16,7 +16,7 @@ from wear import own_laws
 from wear.faults import UsageError
 from wear.given_load import Area, GivenLoad
 from wear.model import BoundModule, Model, Real
-from wear.scene import Scene, as_scene
+from wear.scene import Scene, as_scene, as_scenes
 from wear.scene.variant import VariantKey
 
 
@@ -60,7 +60,7 @@ def bind_many(scenes: Sequence[Scene]) -> Model:
     UsageError
         if the scenes need different variants.
     """
-    scenes = [as_scene(scene) for scene in scenes]
+    scenes = as_scenes(scenes)
     if len({scene.variant for scene in scenes}) != 1:
         raise UsageError("scenes that are solved together must model the same things")
     rows = [scene.parameters() for scene in scenes]

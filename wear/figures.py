@@ -17,12 +17,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wear.faults import UsageError
 from wear.figure_data import (
     PRESSURE,
     Abscissa,
@@ -48,12 +49,10 @@ from wear.figure_style import (
     stroke,
     styled,
 )
+from wear.history import History
 from wear.numerics.gauss import FloatArray
 from wear.quantities import words_of
 from wear.scene import Scene, as_scene
-
-if TYPE_CHECKING:
-    from wear.history import History
 
 #: Distance of a line's markers, in diagonals of the axes.
 _MARK_EVERY = 0.14
@@ -64,9 +63,16 @@ def plot(histories: Mapping[str, History], *, logarithmic: bool = True) -> Figur
 
     Wear, roughness, pressure and, where contact is lost, the fraction of the period in contact
     stand one above the other; each run has its colour.
+
+    Raises
+    ------
+    UsageError
+        if there is no run, or something else.
     """
-    shown = panels_of(tuple(histories.values()), tuple(histories))
-    return history(shown, logarithmic=logarithmic)
+    runs = [*histories.values()] if hasattr(histories, "values") else []
+    if not runs or not all(isinstance(run, History) for run in runs):
+        raise UsageError("histories: give runs by their names, as in {'mine': wear.solve(...)}")
+    return history(panels_of(runs, tuple(histories)), logarithmic=logarithmic)
 
 
 def plot_pressure(scene: Scene | str | os.PathLike[str], cycles: Sequence[int]) -> Figure:

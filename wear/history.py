@@ -203,9 +203,9 @@ class History:
         Raises
         ------
         UsageError
-            for any other suffix.
+            for any other suffix, and for a folder that does not exist.
         OSError
-            if the file cannot be written.
+            if the disk is full.
         """
         history_files.write([States(self.cycles, self.columns())], path, self._attributes())
 

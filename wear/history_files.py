@@ -49,14 +49,16 @@ def write(parts: Iterable[States], path: str | os.PathLike[str], attributes: Att
     Raises
     ------
     UsageError
-        for any other suffix.
+        for any other suffix, and for a folder that does not exist.
     OSError
-        if the file cannot be written.
+        if the disk is full.
     """
     writers = {".csv": _write_lines, ".nc": _write_records}
     suffix = Path(path).suffix if is_path(path) else ""
     if suffix not in writers:
         raise UsageError(f"{path}: the name of a result ends in {' or '.join(writers)}")
+    if problem := files.obstacle(path):
+        raise UsageError(problem)
     with files.replacing(path) as draft:
         writers[suffix](parts, draft, attributes)
 

@@ -16,7 +16,7 @@ from wear.faults import Faults
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.quantities import MOST_CYCLES
-from wear.scene import Scene, as_scene
+from wear.scene import Scene, as_scenes
 
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
@@ -89,10 +89,8 @@ def checked_scenes(
 ) -> list[Scene]:
     """Return the scenes of a request, or raise its `faults` and those of these checks."""
     check_rtol(rtol, faults)
-    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
-        faults.append("scenes: give a list of them")
     faults.stop_if_any()
-    return [as_scene(scene) for scene in scenes]
+    return as_scenes(scenes)
 
 
 def obstacle(scene: Scene) -> str | None:

@@ -24,7 +24,7 @@ class End(NamedTuple):
     way: str
 
     def __str__(self) -> str:
-        spread = f" (± {self.uncertain})" if self.uncertain else ""
+        spread = f" (to within {self.uncertain})" if self.uncertain else ""
         return self.way.format(f"{self.cycle}{spread}")
 
 

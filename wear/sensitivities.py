@@ -41,6 +41,7 @@ from wear.progress import Pace
 from wear.request import checked_request, checked_scenes, obstacle
 from wear.scene import Scene, as_scene
 from wear.states import notices_of_wear
+from wear.words import are_texts
 
 PERIOD = "load.period_s"
 ONE_SIDED = (
@@ -84,7 +85,11 @@ def gradients(
     '1698.1082'
     """
     given = np.asarray(cycles)
-    faults = Faults([] if given.dtype.kind in "iuf" else [f"cycles: {cycles!r} are no numbers"])
+    faults = Faults()
+    if given.dtype.kind not in "iuf" or given.ndim != 1 or not given.size:
+        faults.append(f"cycles: {cycles!r} is no list of numbers")
+    if not are_texts(keys) or not keys:
+        faults.append("keys: give a list of keys, such as ['bearing.hardness_MPa']")
     scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))

@@ -274,6 +274,8 @@ class SceneTable:
                 name = str(entry["loc"][0])
                 if entry["type"] == "wrong":
                     faults.append((entry["loc"], entry["ctx"]["problem"], entry["ctx"]["remedy"]))
+                elif name not in cls.entries:
+                    faults.append((name, entry["msg"], "give the name of a scene and its folder"))
                 elif name not in meant:
                     faults.append(((name,), "missing", _remedy_if_missing(cls, name)))
         present = {key: entry for key, entry in given.items() if entry is not None}

@@ -125,6 +125,15 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.plot_pressure("section4", [1.5]),
         lambda: OPEN.bind_many([3]),
         lambda: OPEN.ten_percent_life({}),
+        lambda: OPEN.bind_many(3),
+        lambda: OPEN.gradients(["section4"], 3, [1]),
+        lambda: OPEN.gradients(["section4"], [K], 3),
+        lambda: OPEN.plot(3),
+        lambda: OPEN.plot({"mine": 3}),
+        lambda: OPEN.posterior(3, 3),
+        lambda: OPEN.study("section4", 3, 1, "out.zarr"),
+        lambda: OPEN.solve("section4", 1).write("/no such folder/wear.csv"),
+        lambda: replace(SECTION4, name=3),  # type: ignore[arg-type]
     ],
 )
 def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):

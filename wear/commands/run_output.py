@@ -69,14 +69,14 @@ def life_text(cycles: float, error: float, reached: str) -> str:
     """Return a number of cycles to a depth of wear with its error, or why there is none.
 
     >>> life_text(140, 1e-9, "counted"), life_text(1.5e13, 1e-6, "extrapolated")
-    ('140', '1.5e+13 (± 2e+07)')
+    ('140', '1.5e+13 (to within 2e+07)')
     >>> life_text(41060, 0.065, "counted")
-    '41060 (± 3e+03)'
+    '41060 (to within 3e+03)'
     """
     if reached not in ("counted", "extrapolated"):
         return reached
     number = f"{cycles:.0f}" if reached == "counted" else f"{cycles:.6g}"
-    return number if error * cycles < 1.0 else f"{number} (± {error * cycles:.1g})"
+    return number if error * cycles < 1.0 else f"{number} (to within {error * cycles:.1g})"
 
 
 def latex(history: History) -> str:

@@ -131,10 +131,12 @@ class Fit(Estimate):
         """Return the one further reading, of any specimen within the cycles read so far, that
         narrows the forecast of all specimens after `cycles` most (default: ten times as many as
         were read)."""
-        specimens = self.model.specimens
+        specimens, faults = self.model.specimens, Faults()
         last = max(float(specimen.cycles[-1]) for specimen in specimens)
+        ahead = whole_cycles(cycles or min(AHEAD * last, 1e12), faults, least=1)
+        faults.stop_if_any()
         tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
-        slots = [np.append(tried, cycles or min(AHEAD * last, 1e12))] * len(specimens)
+        slots = [np.append(tried, max(ahead))] * len(specimens)
         level, slope = self.model.log_wear(self.theta[None], slots)
         residuals = self.model.residuals
         weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)

@@ -290,6 +290,13 @@ def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
     return scene if isinstance(scene, Scene) else load_scene(scene)
 
 
+def as_scenes(scenes: Sequence[Scene | str | os.PathLike[str]]) -> list[Scene]:
+    """Return scenes, or those of built-in names or files."""
+    if isinstance(scenes, str) or not isinstance(scenes, Sequence):
+        raise UsageError("scenes: give a list of them")
+    return [as_scene(scene) for scene in scenes]
+
+
 def parse_scene(
     data: bytes | str,
     name: str = "scene",

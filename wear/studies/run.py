@@ -136,7 +136,7 @@ def prepare(
     base = as_scene(scene)
     faults = Faults()
     parsed: list[Vary] = []
-    for entry in [vary] if isinstance(vary, str) else vary:
+    for entry in [vary] if isinstance(vary, str) or not isinstance(vary, Sequence) else vary:
         try:
             parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
             if "." not in parsed[-1].key:

@@ -228,7 +228,6 @@ def identity(study: Study) -> dict[str, Any]:
         "cycles": list(study.cycles),
         "until_wear_mm": study.until_wear,
         "rtol": study.rtol,
-        "rows_of_a_chunk": list(study.design.chunk_shape),
         "version": version("derive-wear"),
     }
     return dict(json.loads(json.dumps(fields)))
