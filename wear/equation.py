@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from wear.binding import bind, bind_many
+from wear.given_load import GivenLoad
 from wear.load import Load, sampled
 from wear.model import Model
 from wear.numerics.collocation import Tangent
@@ -152,7 +153,10 @@ def growth(model: Model, load: Load, start: float, end: float) -> float:
 
 def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatArray:
     """Return the relative rounding error of the rate: its condition with respect to the terms of
-    the closure and the roughness, whose quotient is the argument of the contact law."""
+    the closure and the roughness, whose quotient is the argument of the contact law; with a given
+    force neither enters."""
+    if isinstance(model, GivenLoad):
+        return np.full(np.broadcast(displacement, wear).shape, 8 * ROUNDOFF)
     fields = model.fields(wear, displacement)
     sigma, initial = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
     cancellation = (initial + np.abs(sigma - initial)) / sigma  # where roughness vanishes

@@ -11,6 +11,7 @@ import pytest
 import wear
 from derive.note.problems import problem_i
 from derive.symbols import symbol
+from tests.judges import honest
 from wear.binding import bind
 from wear.cycles import cycles_to_depth, sweep
 from wear.inside import fields_inside
@@ -48,6 +49,16 @@ def test_wear_is_the_integral_of_the_force(name: str, load: dict[str, object], m
     assert wear.cycles_until(scene, expected[1] * (1 - 1e-9)).cycles.tolist() == [777.0]
     direct = wear.solve(scene, [2], rtol=1e-10, method="DOP853")
     assert direct.u_c[0] == pytest.approx(archard(scene, mean, 2), rel=1e-10)
+
+
+def test_wear_much_deeper_than_a_small_force_is_large_is_known_as_well() -> None:
+    """A force in N is no length: with the condition of a displacement nothing was known here, and
+    the first cycles were less exact than promised."""
+    scene = pressed(load={**FORCE, "force_N": 3e-3}).with_({"bearing.wear_coefficient": 1e-3})
+    cycles = [1, 2, 777, 10**12]
+    history = wear.solve(scene, cycles, rtol=1e-12)
+    expected = np.array([archard(scene, 3e-3, n) for n in cycles])
+    assert honest(history.u_c, history.error, expected)
 
 
 def test_closure_and_displacement_are_those_of_problem_i() -> None:

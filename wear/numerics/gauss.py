@@ -46,7 +46,7 @@ def gauss(m: int) -> Gauss:
     >>> bool(np.allclose(rule.integrate @ rule.nodes**3, rule.nodes**4 / 4, rtol=1e-14))
     True
     """
-    return _with_matrices(*np.polynomial.legendre.leggauss(m))
+    return _with_matrices(np.polynomial.legendre.leggauss(m)[0])
 
 
 @lru_cache(maxsize=32)
@@ -67,21 +67,21 @@ def radau(m: int) -> Gauss:
     for _ in range(2):
         x -= np.polynomial.legendre.legval(x, series) / np.polynomial.legendre.legval(x, slope)
     x[-1] = 1.0
-    weights = np.linalg.solve(np.polynomial.legendre.legvander(x, m - 1).T, 2 * np.eye(m)[0])
-    return _with_matrices(x, weights)
+    return _with_matrices(x)
 
 
-def _with_matrices(x: FloatArray, w: FloatArray) -> Gauss:
-    """Return the rule with nodes x and weights w of [-1, 1], exact to degree 2 m - 2 at least."""
+def _with_matrices(x: FloatArray) -> Gauss:
+    """Return the rule with nodes x in [-1, 1], exact to degree 2 m - 2 at least."""
     m = len(x)
     values = np.polynomial.legendre.legvander(x, m).T  # (m + 1, m): P_k at the nodes
     order = np.arange(m)
-    coefficients = (order[:, None] + 0.5) * values[:m] * w
+    # By the weights of NumPy, 7e-15 off at the ends, an interpolated constant would not be one.
+    coefficients = np.linalg.inv(values[:m].T)
     # The integral of P_k from -1 is (P_{k+1} - P_{k-1}) / (2 k + 1), and x + 1 for k = 0.
     below = np.vstack([-np.ones(m), values[: m - 1]])
     primitives = (values[1:] - below) / (2 * order[:, None] + 1)
     integrate = 0.5 * primitives.T @ coefficients
-    rule = Gauss((x + 1) / 2, w / 2, integrate, coefficients)
+    rule = Gauss((x + 1) / 2, coefficients[0], integrate, coefficients)
     for array in rule:
         array.setflags(write=False)
     return rule
