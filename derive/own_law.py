@@ -175,11 +175,12 @@ def turns_once(law: ContactLaw) -> bool:
 
     place, curvature = law.inflection, sp.diff(law.phi, r, 2)
     quotient, step, _ = _of_exponentials(curvature) or (curvature, None, None)
-    if quotient.free_symbols == {step}:
-        numerator = sp.fraction(sp.factor(quotient))[0]
+    factors = sp.Mul.make_args(sp.fraction(sp.factor(quotient))[0])
+    numerator = sp.Mul(*(f for f in factors if f.as_base_exp()[0] != step))  # any power is positive
+    if quotient.free_symbols == {step} and numerator.is_polynomial(step):
         odd = [sp.Poly(f, step) for f, n in sp.factor_list(numerator)[1] if n % 2]
         if all(f.domain.is_ZZ or f.domain.is_QQ for f in odd):
-            turns = sum(f.count_roots(0) - (f.nth(0) == 0) for f in odd)
+            turns = sum(f.count_roots(0) for f in odd)
             if turns != place.is_finite:
                 raise UsageError(f"phi turns between concave and convex {turns} times, not once")
             return True
@@ -200,7 +201,7 @@ def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
     from .zero import is_zero
 
     candidates = [(_loss(expression, expression), expression)]
-    forms = [1 / sp.radsimp(1 / expression)]
+    forms = [_conjugate(expression)]
     if powers := _of_exponentials(expression):
         quotient, step, exponent = powers
         forms.insert(0, sp.factor(quotient).subs(step, sp.exp(exponent)))
@@ -208,6 +209,30 @@ def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
         if candidates[0][0] > GOOD and is_zero((form - expression).rewrite(sp.exp)):
             candidates.append((_loss(form, expression), form))
     return min(candidates, key=lambda candidate: candidate[0])
+
+
+def _conjugate(expression: sp.Expr) -> sp.Expr:
+    """Return every sum a + b sqrt(q) as (a^2 - b^2 q)/(a - b sqrt(q)), which cancels where that
+    does not; sums without a root, or with several, as they are."""
+    import sympy as sp
+
+    if not expression.is_Add:
+        return expression.func(*map(_conjugate, expression.args)) if expression.args else expression
+    powers = [p for p in expression.atoms(sp.Pow) if p.exp.is_Rational and p.exp.q == 2]
+    if len(under := {p.base for p in powers}) != 1:
+        return expression
+    (q,), root = under, sp.Dummy(positive=True)
+    plain = expression.xreplace({p: root ** (2 * p.exp) for p in powers})
+    (top, odd_top), (low, odd_low) = (
+        [sum(c * q ** (n // 2) for (n,), c in sp.Poly(part, root).terms() if n % 2 == odd)
+         for odd in (0, 1)]
+        for part in sp.fraction(sp.together(plain))
+    )  # fmt: skip
+    a, b = top * low - odd_top * odd_low * q, odd_top * low - top * odd_low
+    norm = low**2 - odd_low**2 * q
+    if sp.expand(a) == 0:
+        return sp.factor(b / norm) * sp.sqrt(q)
+    return sp.factor(sp.expand(a**2 - b**2 * q) / norm) / (a - b * sp.sqrt(q))
 
 
 def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] | None:

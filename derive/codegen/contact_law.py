@@ -15,7 +15,7 @@ from ..reals import sign
 from ..zero import is_zero
 from .formulas import Formula, formula_module
 
-_DISTANCES = (-8.0, -1.0, -0.125, 0.125, 1.0, 8.0)
+_DISTANCES = tuple(sp.Rational(d) for d in ("-8", "-1", "-1/8", "1/8", "1", "8"))
 """Distances from the inflection, in h/sigma, at which the curvature of a law is checked."""
 
 

@@ -59,7 +59,8 @@ def _edge(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     For a law that is convex everywhere any ratio serves.
     """
     at = law.inflection if law.inflection.is_finite else sp.Integer(0)
-    return (at - undeflected) / softness, p_max * law.ratio(at)
+    value = law.ratio(at)  # of an inflection with 17 digits: its roots have integers without bound
+    return (at - undeflected) / softness, p_max * (value if value.is_Rational else value.n(17))
 
 
 def _start(of: ContactLaw) -> Function:

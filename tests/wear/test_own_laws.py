@@ -13,6 +13,7 @@ from derive.faults import UsageError as NotUnderstood
 from derive.own_law import normal
 from tests.programs import python
 from wear import own_laws
+from wear.binding import bind
 
 ALGEBRAIC = "(1 - (r - 2)/sqrt(2 + (r - 2)^2))/2"  # no other test uses it: derived here
 ROOT = Path(__file__).parents[2]
@@ -73,6 +74,24 @@ def test_a_law_with_an_algebraic_tail_is_integrated(name):
 
     found = solve_ivp(grows, (0, n), [0.0], "DOP853", rtol=1e-9, atol=1e-14, max_step=0.1)
     assert wear.solve(scene, [n]).u_c[0] == pytest.approx(found.y[0, -1], rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(1 - (r - 3.1)/sqrt(3.8 + (r - 3.1)^2))/2",  # no root was rationalised within minutes
+        "((1 - tanh(2*(r - 0.45)))/2)^(5/2)",  # the curvature is no rational function
+        "(1 - tanh(3.2*(r - 1.8)))/2",  # 1 - tanh^2 is 0 in doubles
+        "exp(-(sqrt(1.9 + r^2) + r)^2/4)",  # the inflection has a root of 16 digits
+    ],
+)
+def test_sensible_laws_of_any_numbers_are_derived(text):
+    scene, U_a = with_law(text, "soft-support"), np.linspace(-5e-4, 5e-4, 5)
+    found = bind(scene).pressure(0.0, U_a)
+    gap = scene.closure - U_a + found / scene.support.stiffness_MPa_per_mm
+    functions = {"r": gap / scene.initial_roughness, "exp": np.exp, "tanh": np.tanh}
+    law = eval(text.replace("^", "**"), functions | {"sqrt": np.sqrt})
+    assert found == pytest.approx(scene.contact.max_pressure_MPa * law, rel=1e-12)
 
 
 def test_the_asymptote_is_that_of_the_law():
