@@ -91,20 +91,20 @@ class Response(NamedTuple):
 
     def map_derivatives(self, wear: FloatArray) -> CycleDerivatives:
         """Return the derivatives of the cycles from each wear (k,), mm."""
-        of, z = np.zeros(len(wear), dtype=int), self.series.coordinate.at(wear)
-        panel, t, _ = located([self.series], of, z)
+        which, z = np.zeros(len(wear), dtype=int), self.series.coordinate.at(wear)
+        panel, t, _ = located([self.series], which, z)
         basis = chebyshev_values(t, self.coefficients.shape[1])[:, None]
-        increment = increments([self.series], of, z)
-        each = increment[:, None] * np.ones(1 + len(self.origin))
-        each[:, 0] /= _distance(self.series.coordinate, wear)
-        tangent = each * (basis @ self.coefficients[panel])[:, 0]
-        error = np.abs(each) * near_checks(self.misfit[panel], t[:, None])[:, 0]
+        increment = increments([self.series], which, z)
+        scale = increment[:, None] * np.ones(1 + len(self.origin))
+        scale[:, 0] /= _distance(self.series.coordinate, wear)
+        tangent = scale * (basis @ self.coefficients[panel])[:, 0]
+        error = np.abs(scale) * near_checks(self.misfit[panel], t[:, None])[:, 0]
         origin = np.tile(self.origin, (len(wear), 1))
         return CycleDerivatives(increment, tangent, origin, error)
 
 
 def _distance(coordinate: Coordinate, wear: FloatArray) -> FloatArray:
-    """Return how far (mm) each wear is beyond the origin of a coordinate, and its shift."""
+    """Return the distance (mm) of each wear from the origin of a coordinate, plus its shift."""
     return np.asarray(wear - coordinate.origin + coordinate.shift)
 
 
@@ -128,8 +128,8 @@ def derivative_of_origin(equation: ParametrisedEquation, coordinate: Coordinate)
     zero if there is none."""
     if coordinate.shift:
         return np.zeros(equation.parameters)
-    found = derivative_of_grazing_wear(equation, coordinate.origin)
-    return np.where(np.isfinite(found), found, 0.0)
+    derivative = derivative_of_grazing_wear(equation, coordinate.origin)
+    return np.where(np.isfinite(derivative), derivative, 0.0)
 
 
 def derivative_of_grazing_wear(equation: ParametrisedEquation, wear: float) -> FloatArray:
@@ -150,13 +150,13 @@ def map_derivatives(
     added, lasted = np.zeros((2, len(starts)))  # a cycle may begin in contact
     few = AT_ONCE // len(cycle.rule.nodes)
     for at in range(0, len(starts), few):
-        some = slice(at, at + few)
-        own, wear, until = tangent[some], starts[some], lasted[some]
+        rows = slice(at, at + few)
+        own, wear, until = tangent[rows], starts[rows], lasted[rows]
         for piece, run in cycle.pieces_from(wear, np.zeros(len(wear), dtype=int)):
             _through(cycle, equation, run.parts, own, until)
-            added[some] += run.added
+            added[rows] += run.added
             if len(slid := run.slid):
-                slope, change = _margin(equation, (wear + added[some])[slid], piece.end[slid])
+                slope, change = _margin(equation, (wear + added[rows])[slid], piece.end[slid])
                 own[slid], until[slid] = -change / slope[:, None], piece.end[slid]
     return CycleDerivatives(added, tangent, np.zeros_like(tangent[:, 1:]), np.zeros_like(tangent))
 
@@ -202,8 +202,8 @@ def _weights(rule: Gauss, length: FloatArray, slope: FloatArray) -> tuple[FloatA
     (k, m) is known at the nodes: the multiplier (k,) of the initial x, and the weights (k, m) of
     the changes.
 
-    These are the exponential of the integral of the slope up to the end; where much decays they
-    solve the transposed equations of the collocation. Radau's last node is the end.
+    These follow from the exponential of the integral of the slope up to the end; where that decays
+    fast, from the transposed equations of the collocation. Radau's last node is the end.
     """
     decay = length * slope @ rule.integrate.T
     ahead = decay[:, -1:] - decay
@@ -227,16 +227,16 @@ def _jump(
     closed: bool,
 ) -> FloatArray:
     """Return the wear rate times the advance of the phase at which contact begins, or, if it was
-    `closed`, ends: (k, 1 + parameters); zero but for `which` (k,)."""
-    found = np.zeros_like(tangent)
+    `closed`, ends: (k, 1 + parameters); zero except in the rows `which` (k,)."""
+    jump = np.zeros_like(tangent)
     if which.any():
         (load,), model = equation.loads, equation.model
         u, phase = u[which], phase[which]
         slope, change = _margin(equation, u, phase)
         rate = load.period * model.law_rate(u, load(phase))
-        pull = load.slope(phase) + (slope * rate if closed else 0.0)
-        found[which] = (rate / pull)[:, None] * (slope[:, None] * tangent[which] + change)
-    return found
+        speed = load.slope(phase) + (slope * rate if closed else 0.0)  # of the margin
+        jump[which] = (rate / speed)[:, None] * (slope[:, None] * tangent[which] + change)
+    return jump
 
 
 def _margin(

@@ -52,9 +52,9 @@ class SingleCycles(NamedTuple):
 
 
 class CycleJump(NamedTuple):
-    """A jump of so many `cycles` from z on, by a solution `on` panels of Abel's equation."""
+    """A jump over `cycles` from z on, by a `solution` of Abel's equation."""
 
-    on: AbelSolution
+    solution: AbelSolution
     z: float
     cycles: float
 
@@ -64,8 +64,7 @@ CountPartIterates = Iterates | TabulatedIterates | UnresolvedIterates
 
 
 def walked(series: IncrementSeries, wear: float, end: float, most: float) -> SingleCycles:
-    """Return the cycles on a series from a `wear` (mm) on, until z passes `end`, but at most so
-    many."""
+    """Return the cycles on a series from a `wear` (mm) on, until z passes `end`, `most` at most."""
     at = series.walk(wear, end, most)
     added, z = np.diff(at), series.coordinate.at(np.array(at[:-1]))
     error = relative_error([series], np.zeros(len(z), dtype=int), z) * added
@@ -82,51 +81,45 @@ def with_error(
     ends = [np.array(part.wear) for part in single.values()]
     rows = np.repeat(scene[list(single)], [len(wear) for wear in ends])
     rounding = roundoff(cycles.take(rows), ends)
-    found: dict[int, CountPartIterates] = {
+    iterates: dict[int, CountPartIterates] = {
         i: part for i, part in enumerate(parts) if isinstance(part, UnresolvedIterates)
     }
-    found |= {
+    iterates |= {
         i: part.with_error(problems[scene[i]], here)
         for (i, part), here in zip(single.items(), rounding, strict=True)
     }
-    counts = {i: part for i, part in enumerate(parts) if isinstance(part, CycleJump)}
-    for some in alike({i: part.on.density for i, part in counts.items()}):
-        limits = [problems[of].end for of in scene[some].tolist()]
-        alone = _tabulated([counts[i] for i in some], cycles.take(scene[some]), limits)
-        found |= zip(some, alone, strict=True)
-    return [found[i] for i in range(len(parts))]
+    jumps = {i: part for i, part in enumerate(parts) if isinstance(part, CycleJump)}
+    for group in alike({i: jump.solution.density for i, jump in jumps.items()}):
+        limits = [problems[of].end for of in scene[group].tolist()]
+        tables = _tabulated([jumps[i] for i in group], cycles.take(scene[group]), limits)
+        iterates |= zip(group, tables, strict=True)
+    return [iterates[i] for i in range(len(parts))]
 
 
 def _tabulated(
-    counts: Sequence[CycleJump], cycles: Cycles, limits: Sequence[float]
+    jumps: Sequence[CycleJump], cycles: Cycles, limits: Sequence[float]
 ) -> list[TabulatedIterates]:
     """Return the iterates of cycle jumps on equally many panels each, with a cycle of each and the
-    wear (mm) that limits it. The error is that of the increments, of Abel's equation, where panels
-    meet, and by rounding."""
-    every = [part.on for part in counts]
-    panels, residual = stacked([(on.density, on.residual) for on in every])
-    table = count_table(panels, scenes=len(every), start=np.array([part.z for part in counts]))
+    wear (mm) that limits it. Their error is that of the increments, of Abel's equation, where
+    panels meet, and by rounding."""
+    every = [jump.solution for jump in jumps]
+    density, residual = stacked([(own.density, own.residual) for own in every])
+    table = count_table(density, scenes=len(every), start=np.array([jump.z for jump in jumps]))
     tables = table.of_each(len(every))
     z = np.stack([own.bounds for own in tables])
-    wear = [on.series.coordinate.wear(ends) for on, ends in zip(every, z, strict=True)]
+    wear = [own.series.coordinate.wear(ends) for own, ends in zip(every, z, strict=True)]
     of = np.repeat(np.arange(len(every)), z.shape[1])
     rounding = roundoff(cycles.take(of), wear)
     rounded = np.stack([here.rate + here.contact for here in rounding])
-    error = count_error(panels, residual, table, rounded, len(every))
-    at_ends = relative_error([on.series for on in every], of, z.ravel()).reshape(z.shape)
+    error = count_error(density, residual, table, rounded, len(every))
+    at_ends = relative_error([own.series for own in every], of, z.ravel()).reshape(z.shape)
     misfit = (
         SAFETY * np.maximum(at_ends[:, 1:], at_ends[:, :-1]) * table.number.reshape(len(every), -1)
     )
     error[:, 1:] += np.cumsum(misfit, axis=1)
     return [
         TabulatedIterates(
-            on.series,
-            own,
-            on.density,
-            lost,
-            on.limit_wear,
-            np.array([limit]),
-            part.cycles,
+            own.series, n, own.density, of_n, own.limit_wear, np.array([limit]), jump.cycles
         )
-        for part, on, own, lost, limit in zip(counts, every, tables, error, limits, strict=True)
+        for jump, own, n, of_n, limit in zip(jumps, every, tables, error, limits, strict=True)
     ]

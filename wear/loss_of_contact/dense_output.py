@@ -19,7 +19,7 @@ from wear.orbit.dense_output import PhaseIncrements
 from wear.orbit.period_map import settings
 
 NODES = 8  # on each part of a piece, most of which are short
-NEARLY = 1e-12  # of a cycle: phases that are one
+NEARLY = 1e-12  # of a cycle: the distance between phases that are one
 
 
 class SwitchedDenseOutput(NamedTuple):
@@ -30,7 +30,7 @@ class SwitchedDenseOutput(NamedTuple):
     parts: Piece
     both: tuple[SwitchedPeriodMap, SwitchedPeriodMap]
 
-    @np.errstate(all="ignore")  # of trial states; what is no number fails the estimate of error
+    @np.errstate(all="ignore")  # of trial states; NaN fails the error estimate
     def added(self, cycles: FloatArray, starts: FloatArray) -> PhaseIncrements:
         """Return the increments of a cycle from each of the `starts` (n,), mm."""
         coarse, fine = (self._wear(cycle, starts) for cycle in self.both)
@@ -61,7 +61,7 @@ def switched_dense_output(
 
 
 def _cut(pieces: Piece, load: Load, phases: FloatArray) -> Piece:
-    """Return the pieces, cut at those of the phases that lie within."""
+    """Return the pieces, cut at the phases inside them."""
     cuts = np.append(pieces.begin, pieces.end[-1])
     within = np.min(np.abs(phases[:, None] - cuts), axis=1) > NEARLY
     cuts = np.union1d(cuts, phases[within])

@@ -35,9 +35,9 @@ from wear.loss_of_contact.switching import (
 from wear.model import Model, stacked
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 
-SAMPLES = 512  # of a cycle, to look for where q rises through zero
+SAMPLES = 512  # of a cycle, between which q may rise through zero
 LOOKS = np.array([[NEARLY], [0.1], [0.5], [0.9], [1 - NEARLY]])  # at the slope between two peaks
-FAR = 1e6  # times the roughness: wear at which the margin is as good as linear
+FAR = 1e6  # times the roughness: wear from which on the margin is practically linear
 _FIRST, _LAST = slice(None, -1), slice(1, None)
 
 
@@ -148,8 +148,8 @@ def turning_points(load: Load) -> FloatArray:
 
 
 def _closings(legs: _Legs, both: bool) -> tuple[FloatArray, IntArray]:
-    """Return the phases at which the load starts to close contact at its edge, between two turns,
-    and the scenes of these; if `both`, also those at which it ceases to."""
+    """Return the phases between two turns at which the load starts to close contact at its edge,
+    if `both` also those at which it ceases to, and the scene of each."""
     number = np.maximum(2, SAMPLES // (np.bincount(legs.scene) + 1))[legs.scene]
     leg = np.repeat(np.arange(len(number)), number + 1)
     at, last = np.arange(len(leg)) - (np.cumsum(number + 1) - number - 1)[leg], number[leg]
@@ -165,9 +165,9 @@ def _closings(legs: _Legs, both: bool) -> tuple[FloatArray, IntArray]:
     if both:
         turned |= (value[:-1] >= 0.0) & (value[1:] < 0.0)
     rows = np.flatnonzero(turned & (np.diff(leg) == 0))
-    some = legs.take(leg[rows])
-    found = bracketed(some.closing_speed, phase[rows], phase[rows + 1], FEW_BISECTIONS)[1]
-    return found, some.scene
+    legs = legs.take(leg[rows])
+    phases = bracketed(legs.closing_speed, phase[rows], phase[rows + 1], FEW_BISECTIONS)[1]
+    return phases, legs.scene
 
 
 def _levels(models: Sequence[Model]) -> list[ModelLevels]:

@@ -1,5 +1,5 @@
-"""Grazing wears: there the period map has a kink, and at the last of them wear stops or tends to
-its limit."""
+"""Grazing wears, at which the period map has a kink; at the last of them wear stops or tends to its
+limit."""
 
 from typing import NamedTuple
 
@@ -11,17 +11,14 @@ from wear.loss_of_contact.period_map import TOUCH, margin_roundoff
 from wear.loss_of_contact.roots import bracketed
 from wear.loss_of_contact.switching import NEARLY, Edge
 from wear.model import Model
-from wear.numerics.floating_point import (
-    ROUNDOFF,
-    TINY,
-)
+from wear.numerics.floating_point import ROUNDOFF, TINY
 
 TINY_WEARS = 16  # samples of them: roots are found to roundoff of the larger sample
 
 
 class GrazingWear(NamedTuple):
-    """A `wear` (mm) at which contact grazes, and the number of pieces of the cycle `before`
-    that."""
+    """A `wear` (mm) at which contact grazes, and the number of pieces of the cycle `before` it does
+    so."""
 
     wear: float
     before: int
@@ -48,9 +45,9 @@ def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[Gr
         wear[at],
         wear[at + 1],
     )
-    found = np.where(contact, low, high)
-    some = found > TOUCH * ROUNDOFF * shift
-    return sorted(map(GrazingWear, found[some].tolist(), edge.before[which[some]].tolist()))
+    roots = np.where(contact, low, high)
+    positive = roots > TOUCH * ROUNDOFF * shift
+    return sorted(map(GrazingWear, roots[positive].tolist(), edge.before[which[positive]].tolist()))
 
 
 def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:
@@ -61,9 +58,8 @@ def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:
     margin = abs(float(model.margin(worn, peak)))
     if wear <= 0 or margin > TOUCH * rounding:
         return None
-    return LimitWear(
-        wear, (margin + rounding) / (abs(float(model.margin_slope(worn, peak))) + TINY)
-    )
+    slope = abs(float(model.margin_slope(worn, peak)))
+    return LimitWear(wear, (margin + rounding) / (slope + TINY))
 
 
 def fades(model: Model, load: Load, edge: Edge, limit_wear: float) -> bool:

@@ -32,11 +32,11 @@ GRAIN = 16.0  # times the uncertainty of a distance: the rounding error of an in
 WIDE = 2.0  # panel, in ln(z + shift): it is cut in the middle of that
 FAR_OFF = 1e3  # times the tolerance: then a panel is cut in four, else in two
 FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
-SAME = 1e-9  # of a domain: wears so near to each other are one
+SAME = 1e-9  # of a domain: two wears that differ by less are one
 USABLE = 10.0  # times the tolerance: the largest misfit of a series in use
 TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance from its limit at which a count ends
-TERMS = 6  # at most, with which a series goes on to a limit wear
-EASED = 10.0  # at most, the tolerance: an error of the distance is a smaller one of the wear
+TERMS = 6  # at most, by which a series is extrapolated to a limit wear
+EASED = 10.0  # times the tolerance, at most: an error of the distance is a smaller one of the wear
 
 
 class Coordinate(NamedTuple):
@@ -61,18 +61,17 @@ class Coordinate(NamedTuple):
 
 
 def step(ahead: BoolArray | bool, z: FloatArray, increment: FloatArray) -> FloatArray:
-    """Return by how much each z rises as the wear does by an `increment` (mm), if its origin lies
-    `ahead` or not."""
+    """Return the increment of each z when the wear rises by an `increment` (mm); its origin lies
+    `ahead` or behind."""
     taken = z * increment
     return np.where(ahead, z * taken / (1.0 - taken), increment)
 
 
 class SeriesDomain(NamedTuple):
     """The domain of a series of increments: from the wear `start` to `end` (mm), in a coordinate z
-    whose origin has the rounding error `uncertainty` (mm); and on to the origin if wear `tends` to
-    it.
+    whose origin has the rounding error `uncertainty` (mm); up to the origin if wear `tends` to it.
 
-    The series of D/w^vanishes runs in w/(w + scale) with w = z^power, or in ln w if the scale is
+    The series is that of D/w^vanishes in w/(w + scale) with w = z^power, or in ln w if the scale is
     zero.
     """
 
@@ -91,8 +90,8 @@ class SeriesDomain(NamedTuple):
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Return its first and last z; towards a limit wear the last that double precision
-        distinguishes from it."""
+        """Return its first and last z; towards a limit wear, the last z that double precision
+        distinguishes from the limit."""
         first, last = self.coordinate.at(np.array([self.start, self.end])).tolist()
         return first, 1.0 / (TO_ROUNDOFF * self.coordinate.origin) if self.tends else last
 
@@ -120,8 +119,8 @@ class IncrementSeries(NamedTuple):
         return self.domain.coordinate
 
     def walk(self, wear: float, end: float, most: float) -> list[float]:
-        """Return the wear (mm) before and after each cycle from `wear` on, until z passes `end`,
-        but at most so many cycles."""
+        """Return the wear (mm) before and after each cycle from `wear` on, until z passes `end` or
+        the number of cycles exceeds `most`."""
         origin, ahead, _ = self.coordinate
         power, scale, vanishes = self.domain.power, self.domain.scale, self.domain.vanishes
         starts, across = self.grid.starts.tolist(), self.grid.x_ends.tolist()
@@ -147,39 +146,37 @@ class IncrementSeries(NamedTuple):
         return walked
 
 
-def increments(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
-    """Return the increment (mm) of a cycle from each z (k,), by the series with the numbers `of`
+def increments(fits: Sequence[IncrementSeries], which: IntArray, z: FloatArray) -> FloatArray:
+    """Return the increment (mm) of a cycle from each z (k,), by the fit with the number `which`
     (k,)."""
-    panel, t, w = located(known, of, z)
-    series, level = (np.concatenate([each[i] for each in known]) for i in (3, 2))
-    vanishes = np.array([each.domain.vanishes for each in known])[of]
+    panel, t, w = located(fits, which, z)
+    series, level = (np.concatenate([fit[i] for fit in fits]) for i in (3, 2))
+    vanishes = np.array([fit.domain.vanishes for fit in fits])[which]
     logarithm = np.einsum("ij,ij->i", chebyshev_values(t, series.shape[1]), series[panel])
     return np.asarray(level[panel] * np.exp(logarithm) * w**vanishes)
 
 
-def relative_error(known: Sequence[IncrementSeries], of: IntArray, z: FloatArray) -> FloatArray:
-    """Return the relative error of the increment at each z (k,): the larger misfit at the two
-    CHECKS next to it."""
-    panel, t, _ = located(known, of, z)
-    misfit = np.concatenate([each.misfit for each in known])
+def relative_error(fits: Sequence[IncrementSeries], which: IntArray, z: FloatArray) -> FloatArray:
+    """Return the relative error of the increment at each z (k,) by the fit with the number `which`
+    (k,): the larger misfit at the two CHECKS next to it."""
+    panel, t, _ = located(fits, which, z)
+    misfit = np.concatenate([fit.misfit for fit in fits])
     return near_checks(misfit[panel], t[:, None])[:, 0]
 
 
 def located(
-    known: Sequence[IncrementSeries], of: IntArray, z: FloatArray
+    fits: Sequence[IncrementSeries], which: IntArray, z: FloatArray
 ) -> tuple[IntArray, FloatArray, FloatArray]:
-    """Return, for each z (k,) on the series with the numbers `of` (k,), its panel among those of
-    all series, or the nearest; its position on that panel; and w."""
-    power, scale = np.array([(each.domain.power, each.domain.scale) for each in known])[of].T
-    number = [len(each.level) for each in known]
-    starts, across = (
-        np.concatenate(each)
-        for each in zip(*((each.grid.starts, each.grid.x_ends) for each in known), strict=True)
-    )
-    begins = np.full((len(known), max(number)), np.inf)
+    """Return, for each z (k,) on the fit with the number `which` (k,), its panel among those of all
+    fits, or the nearest; its position on that panel; and w."""
+    power, scale = np.array([(fit.domain.power, fit.domain.scale) for fit in fits])[which].T
+    number = [len(fit.level) for fit in fits]
+    starts, across = (np.concatenate([getattr(fit.grid, name) for fit in fits])
+                      for name in ("starts", "x_ends"))  # fmt: skip
+    begins = np.full((len(fits), max(number)), np.inf)
     begins[np.arange(max(number)) < np.array(number)[:, None]] = starts
     w = z**power
-    panel = (np.cumsum(number) - number)[of] + np.sum(begins[of, 1:] <= w[:, None], axis=1)
+    panel = (np.cumsum(number) - number)[which] + np.sum(begins[which, 1:] <= w[:, None], axis=1)
     start = starts[panel]
     x = np.where(scale > 0.0, (w - start) / (w + scale), np.log(w / start))
     return panel, 2 * x / across[panel] - 1, w
@@ -189,19 +186,19 @@ def fitted(
     domains: Sequence[SeriesDomain], number: int, tolerance: float
 ) -> Coroutine[tuple[list[IncrementSeries], Cost]]:
     """Fit the increments on every domain, with `number` coefficients on each panel, to a relative
-    `tolerance`: the panels of all domains at once, those that miss it cut in pieces. Return a
-    series for each part of a domain on which the fit succeeds."""
+    `tolerance`: the panels of all domains at once; those that miss it are cut. Return a series for
+    each part of a domain on which the fit succeeds."""
     grids = [domain.grid for domain in domains]
-    found: list[list[IncrementSeries]] = [[] for _ in domains]
+    fitted_parts: list[list[IncrementSeries]] = [[] for _ in domains]
     cost, t = Cost(0, 0), np.append(chebyshev_nodes(number), CHECKS)
     vanishes = np.array([domain.vanishes for domain in domains])
     for rounds in range(MOST_ROUNDS):
-        some = [i for i, grid in enumerate(grids) if len(grid.starts)]
-        if not some:
+        todo = [i for i, grid in enumerate(grids) if len(grid.starts)]
+        if not todo:
             break
-        states = [grids[i].states(t) for i in some]
-        of, w = np.repeat(some, [len(part) for part in states]), np.concatenate(states)
-        wear = np.concatenate([domains[i].wear(part) for i, part in zip(some, states, strict=True)])
+        states = [grids[i].states(t) for i in todo]
+        of, w = np.repeat(todo, [len(part) for part in states]), np.concatenate(states)
+        wear = np.concatenate([domains[i].wear(part) for i, part in zip(todo, states, strict=True)])
         run = yield Query(CYCLES, wear.ravel())
         cost = cost.plus(wear.size, run.evaluations)
         increment = run.increment.reshape(w.shape)
@@ -209,15 +206,15 @@ def fitted(
         fits = _series(increment / w ** vanishes[of, None], error)
         excess = np.max(fits[-1] / _allowed(domains, of, wear[:, number:], tolerance), axis=1)
         coarse = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
-        for i in some:
+        for i in todo:
             series = IncrementSeries(domains[i], grids[i], *take(fits, of == i))
             cut_again, far = coarse[of == i], excess[of == i]
-            found[i].append(take(series, ~cut_again & (far <= USABLE)))
+            fitted_parts[i].append(take(series, ~cut_again & (far <= USABLE)))
             grids[i] = take(grids[i], cut_again)
             if cut_again.any():
                 halves, far_off = cut(grids[i]), np.tile(far[cut_again] > FAR_OFF, 2)
                 grids[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
-    return [known for parts in found for known in _joined(parts)], cost
+    return [series for parts in fitted_parts for series in _joined(parts)], cost
 
 
 def _series(smooth: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -244,14 +241,14 @@ def _allowed(
 
 def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
     """Return the series of a domain: one for each run of adjacent panels."""
-    every = stacked(parts)
-    domain, grid = every.domain, every.grid
+    fit = stacked(parts)
+    domain, grid = fit.domain, fit.grid
     order = np.argsort(grid.starts)
     starts, ends = grid.starts[order], grid.ends[order]
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
-    known, near = [], SAME * (domain.end - domain.start)
+    joined, near = [], SAME * (domain.end - domain.start)
     for run in np.split(order, gaps) if len(order) else []:
-        panels = take(every, run)
+        panels = take(fit, run)
         begin, end = np.sort(domain.wear(np.array([panels.grid.starts[0], panels.grid.ends[-1]])))
         begin = domain.start if begin <= domain.start + near else begin
         whole = end >= domain.end - near
@@ -261,15 +258,15 @@ def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
             panels = stacked([_to_limit(panels), panels])
         tends = domain.tends and whole
         part = domain._replace(start=float(begin), end=float(last), tends=tends)
-        known.append(panels._replace(domain=part))
-    return known
+        joined.append(panels._replace(domain=part))
+    return joined
 
 
-def _to_limit(known: IncrementSeries) -> IncrementSeries:
-    """Return the panel from w = 0 to the first one: its series, extrapolated by the first terms of
-    Taylor's expansion, as far as these exceed their error by the misfit; the one at which that
-    ends, at w = 0, is the error of the extrapolation."""
-    first, m = take(known, slice(1)), known.series.shape[1]
+def _to_limit(fit: IncrementSeries) -> IncrementSeries:
+    """Return the panel from w = 0 to the first one. The series of that is extrapolated by those
+    terms of its Taylor expansion that exceed their error by the misfit; the first neglected term,
+    at w = 0, is the error of the extrapolation."""
+    first, m = take(fit, slice(1)), fit.series.shape[1]
     grid = abel.grid(first.grid.c, np.zeros(1), first.grid.starts)
     d = first.grid.positions(grid.states(chebyshev_nodes(TERMS)))[0] + 1.0
     k, factor, values = np.arange(m), (-1.0) ** np.arange(m), np.zeros(TERMS)

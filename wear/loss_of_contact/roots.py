@@ -15,7 +15,7 @@ FEW_BISECTIONS = 5  # to roundoff of a cycle
 FEWER_BISECTIONS = 3  # for the least value of a function
 MOST_NEWTON = 60  # for the wear at the edge, which may be far off
 ACCURATE = 1e-8  # relative step of Newton's method: the next would be its square
-PATIENCE = 8  # of them; then a change that is no smaller than the last is rounding
+PATIENCE = 8  # of them; then a change no smaller than the last is rounding
 MAY_VANISH = 0.5  # of the least sample: a parabola whose least value is larger does not vanish
 Function = Callable[[FloatArray], FloatArray]
 Bound = FloatArray | float
@@ -39,9 +39,9 @@ def bracketed(
 def nearest_to_zero(
     function: Callable[[IntArray], Function], x: FloatArray, value: FloatArray, of: IntArray
 ) -> tuple[FloatArray, IntArray]:
-    """Return where functions come nearest to zero between samples at `x` (n,), with a `value` (n,)
-    of one sign, if they may come there; and the number of each function: the samples are those of
-    the functions `of` (n,), one after the other."""
+    """Return the points between samples at which functions come nearest to zero, if they may vanish
+    there, and the number of each function. The samples at `x` (n,), with their `value` (n,), are
+    those of the functions `of` (n,), one after the other; neighbours have one sign."""
     sign, size = np.sign(value), np.abs(value)
     nearest = (size[1:-1] < size[:-2]) & (size[1:-1] < size[2:]) & (of[:-2] == of[2:])
     nearest &= (sign[1:-1] == sign[:-2]) & (sign[1:-1] == sign[2:])
@@ -60,17 +60,16 @@ def nearest_to_zero(
 
 
 def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
-    """Return the displacement (mm) that just makes contact at each wear: the margin rises with it
-    by as much."""
-    edge: FloatArray = -model.margin(wear, np.zeros_like(wear))
-    return edge
+    """Return the displacement (mm) that just makes contact at each wear; the margin is linear in
+    it, with slope 1."""
+    return np.asarray(-model.margin(wear, np.zeros_like(wear)))
 
 
 def wear_at(
     model: Model, displacement: FloatArray, guess: FloatArray, least: Bound, most: Bound
 ) -> FloatArray:
     """Return the wear (mm) at which contact ends under a displacement, by Newton's method; the
-    nearest of `least` and `most` if there is none between.
+    nearer of `least` and `most` if there is none between.
 
     The margin is convex in the wear, so that from the side of contact no step goes too far.
     """

@@ -13,6 +13,8 @@ from wear.loss_of_contact.switching import Cycles
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
 
+LARGEST = 1e-9  # relative error of a margin in use: a smaller margin is not resolved
+
 
 class Roundoff(NamedTuple):
     """Relative rounding errors (k,) at some wears: of the `rate` at the peak of the load, and of
@@ -47,7 +49,7 @@ def _of_rate(cycles: Cycles, wear: FloatArray) -> FloatArray:
     model, peak = cycles.model, cycles.peak + np.zeros_like(wear)
     error = rate_roundoff(model, peak, wear)
     if model.compliant:
-        # The pressure vanishes with the margin, and no steepness can be taken there.
+        # The pressure vanishes with the margin: its steepness is unknown there.
         known = model.margin(wear, peak) > 2 * HALF_DIFFERENCE * model.fields(wear, peak).sigma
         error = np.where(known, error, 8 * ROUNDOFF)
     return error
@@ -57,5 +59,4 @@ def _of_contact(cycles: Cycles, wear: FloatArray) -> FloatArray:
     """Return the relative error of the margin of contact at the peak of the load."""
     peak = cycles.peak + np.zeros_like(wear)
     margin, terms = cycles.model.margin(wear, peak), cycles.model.margin_terms(wear, peak)
-    result: FloatArray = np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), 1e-9)
-    return result
+    return np.asarray(np.minimum(ROUNDOFF * terms / (np.abs(margin) + TINY), LARGEST))

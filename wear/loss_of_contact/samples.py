@@ -9,7 +9,7 @@ import numpy as np
 
 from wear.numerics.gauss import BoolArray, FloatArray
 
-BEND = 10.0  # relative change of the slope over a wear as large as what the cycle adds, at most
+CURVATURE = 10.0  # relative change of the slope over the increment of a cycle, at most
 
 
 class Cycle(NamedTuple):
@@ -35,8 +35,8 @@ class Samples:
             insort(self.cycles, Cycle(*row))
 
     def at(self, wear: float, guess: float) -> Cycle:
-        """Return the cycle from a wear (mm), extrapolated from the nearest one by its slope; with
-        the increment `guess` (mm) if that begins a cycle away or more."""
+        """Return the cycle from a wear (mm), extrapolated from the nearest one by its slope; if
+        none begins less than a cycle away, with the increment `guess` (mm)."""
         i = bisect_left(self.cycles, (wear,))
         around = self.cycles[max(i - 1, 0) : i + 1]
         near = min(around, key=lambda cycle: abs(wear - cycle.wear), default=None)
@@ -46,4 +46,4 @@ class Samples:
             return near
         part = abs(wear - near.wear) / near.added
         added = max(near.added + near.slope * (wear - near.wear), 0.0)
-        return Cycle(wear, added, near.slope, near.sound, BEND * abs(near.slope) * part**2)
+        return Cycle(wear, added, near.slope, near.sound, CURVATURE * abs(near.slope) * part**2)

@@ -20,8 +20,8 @@ from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a part of the cycle: the distance of a sample from its ends
-PHASE_NEWTON = 60  # for a phase: a few, but for a load that is far from a parabola at its turns
-PHASE_PATIENCE = 3  # of them; then one that is no smaller than the last is rounding
+PHASE_NEWTON = 60  # Newton steps to a phase; a few, unless the load turns unlike a parabola
+PHASE_PATIENCE = 3  # of them; then a step no smaller than the last is rounding
 Numbers = Any  # a float, or an array of floats
 
 
@@ -40,22 +40,22 @@ class Piece(NamedTuple):
 
     @property
     def begin(self) -> FloatArray:
-        """Their first phases."""
+        """Return the first phases."""
         return np.asarray(self.phases[0])
 
     @property
     def end(self) -> FloatArray:
-        """Their last phases."""
+        """Return the last phases."""
         return np.asarray(self.phases[-1])
 
     @property
     def rising(self) -> BoolArray:
-        """Or level."""
+        """Return whether the load rises or is level."""
         return np.asarray(self.heights[-1] >= self.heights[0])
 
     @property
     def top(self) -> FloatArray:
-        """The higher ends (mm)."""
+        """Return the higher of the loads (mm) at both ends."""
         return np.asarray(np.maximum(self.heights[0], self.heights[-1]))
 
 
@@ -112,12 +112,10 @@ class Cycles(NamedTuple):
         return self._replace(load=Lines(piece.begin, piece.heights[0], rise))
 
     def is_over(self, start: FloatArray, wear: FloatArray, U_a: FloatArray) -> BoolArray:
-        """Return whether contact from the wear `start` has come to wear at which it closes anew, on
-        the other side of the turning wear."""
-        over: BoolArray = (
-            (start < self.turning_wear) & (wear >= self.turning_wear) & (U_a < self.highest)
-        )
-        return over
+        """Return whether contact from the wear `start` has reached a wear at which it closes anew,
+        on the other side of the turning wear."""
+        passed = (start < self.turning_wear) & (wear >= self.turning_wear)
+        return np.asarray(passed & (U_a < self.highest))
 
     def rate(self, u: FloatArray, U_a: FloatArray) -> FloatArray:
         """Return the wear rate in contact, mm per cycle."""
@@ -160,8 +158,8 @@ def cycles_of(
 
 
 def displacements(loads: Sequence[Load]) -> Load | Waves:
-    """Return the displacements of loads of one kind; of tables and measured histories, which are
-    straight on every piece, those of the first, see `Cycles.on`."""
+    """Return the displacements of loads of one kind; for tables and measured histories, which are
+    straight on every piece (`Cycles.on`), those of the first."""
     first, *others = loads
     of_waves = isinstance(first, Harmonics) or (isinstance(first, Sine) and others)
     return waves(loads) if of_waves else first

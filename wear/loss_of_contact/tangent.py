@@ -40,7 +40,7 @@ SMOOTH = 1e-3  # share of an increment in its second difference, at most
 
 @np.errstate(all="ignore")
 def stage_tangents(
-    found: SceneOrbit,
+    solution: SceneOrbit,
     equation: ParametrisedEquation,
     edge: Edge,
     cycles: FloatArray,
@@ -48,21 +48,20 @@ def stage_tangents(
     start: FloatArray,
     start_error: FloatArray,
 ) -> Tangents:
-    """Return the derivatives of the wear of one scene after `cycles` (1, n) on its orbit `found`,
-    counted to `rtol`; the first wear has the derivative `start` (1, parameters), known up to
-    `start_error`.
+    """Return the derivatives of the wear of one scene after `cycles` (1, n) by its `solution` to
+    `rtol`; the first wear has the derivative `start` (1, parameters), known up to `start_error`.
 
     The cycles of all segments are linearised at once; where many of them lie along a series of
     increments, their derivatives are a series, too.
     """
     size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
     cycle = switched_period_map(*scene, size.finer_nodes, size.endpoint_tolerance)
-    runs = _of_each(cycle, equation, [segment.iterates for segment in found.orbit.segments])
-    u, error = (values[None] for values in found.after(cycles[0]))
+    runs = _of_each(cycle, equation, [segment.iterates for segment in solution.orbit.segments])
+    u, error = (values[None] for values in solution.after(cycles[0]))
     derivative, derivative_error = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
     increment = np.zeros(cycles.shape)
     now, now_error = start[0], start_error[0]
-    for segment, run in zip(found.orbit.segments, runs, strict=True):
+    for segment, run in zip(solution.orbit.segments, runs, strict=True):
         begins, iterates = segment.begins, segment.iterates
         here = cycles[0] >= begins
         last = iterates.whole_cycles
@@ -73,7 +72,9 @@ def stage_tangents(
             limit = derivative_of_origin(equation, iterates.coordinate)
             part = _tabulated(iterates, run, limit, wanted, now, now_error)
         elif iterates.at_rest[0]:
-            limit = np.tile(derivative_of_grazing_wear(equation, found.last_wear), (len(wanted), 1))
+            limit = np.tile(
+                derivative_of_grazing_wear(equation, solution.last_wear), (len(wanted), 1)
+            )
             part = _StageTangents(limit, np.abs(limit) / LIMIT_DIGITS, np.zeros_like(wanted))
         else:  # an unresolved segment: no cycle of it is known
             unknown = np.full((len(wanted), equation.parameters), np.inf)
@@ -101,20 +102,20 @@ def _starts(iterates: AnyIterates) -> FloatArray:
     some of them also moved by their error; the nodes and the CHECKS of panels."""
     if isinstance(iterates, Iterates):
         wear, beside = iterates.transient[0], iterates.transient[0] + iterates.transient_error[0]
-        return np.concatenate([wear[:-1], beside[_rough(iterates)]])
+        return np.concatenate([wear[:-1], beside[_abrupt(iterates)]])
     if isinstance(iterates, TabulatedIterates):
         return iterates.coordinate.wear(_resolved(iterates, _positions(iterates))).ravel()
     return np.empty(0)
 
 
-def _rough(iterates: Iterates) -> IntArray:
+def _abrupt(iterates: Iterates) -> IntArray:
     """Return the single cycles whose increments change abruptly, as next to a grazing wear: there
     the derivatives are sensitive to errors of the wear."""
     added = np.diff(iterates.transient[0])
-    bend = np.abs(added[2:] - 2 * added[1:-1] + added[:-2])
-    rough = np.full(len(added), True)
-    rough[1:-1] = ~(bend <= SMOOTH * added[1:-1])
-    return np.flatnonzero(rough)
+    change = np.abs(added[2:] - 2 * added[1:-1] + added[:-2])
+    abrupt = np.full(len(added), True)
+    abrupt[1:-1] = ~(change <= SMOOTH * added[1:-1])
+    return np.flatnonzero(abrupt)
 
 
 def _positions(iterates: TabulatedIterates) -> FloatArray:
@@ -141,8 +142,8 @@ def _one_by_one(
     values, errors = [start], [start_error]
     derivatives, derivatives_error = run.along(0.0)
     tangents, beside = np.split(derivatives, [iterates.integrated_cycles])
-    difference, rough = derivatives_error[: len(tangents)], _rough(iterates)
-    difference[rough] += np.abs(tangents[rough] - beside)
+    difference, abrupt = derivatives_error[: len(tangents)], _abrupt(iterates)
+    difference[abrupt] += np.abs(tangents[abrupt] - beside)
     for tangent, local_error in zip(tangents, difference, strict=True):
         multiplier, by_parameters = 1.0 + tangent[0], tangent[1:]
         by_start = multiplier * values[-1]
@@ -172,8 +173,8 @@ def _tabulated(
     count, z = iterates.in_z, iterates.coordinate
     added = _added(iterates, run, limit)
     nodes, checks = (
-        abel.SumIncrements(*(x[:, some] for x in added))
-        for some in (slice(None, -len(CHECKS)), slice(-len(CHECKS), None))
+        abel.SumIncrements(*(x[:, columns] for x in added))
+        for columns in (slice(None, -len(CHECKS)), slice(-len(CHECKS), None))
     )
     into_z = 1.0 / z.rate(iterates.table.u[:1], np.ones(1))
     sums = sums_on_cells(
@@ -182,21 +183,20 @@ def _tabulated(
     wanted = np.minimum(cycles, iterates.reach)
     at, _ = count.after(wanted[None])
     by_z, error_of_z, rate = (part[0] for part in after_on_cells(count, sums, wanted[None], at))
-    pace = z.rate(at[0], np.ones(1))[:, None]
+    from_z = z.rate(at[0], np.ones(1))[:, None]
     rounding = SAFETY * ROUNDOFF * np.abs(limit)
-    derivative, error = limit + pace * by_z, pace * error_of_z + rounding
-    return _StageTangents(derivative, error, pace[:, 0] * rate)
+    derivative, error = limit + from_z * by_z, from_z * error_of_z + rounding
+    return _StageTangents(derivative, error, from_z[:, 0] * rate)
 
 
 def _added(
     iterates: TabulatedIterates, run: CycleDerivatives, limit: FloatArray
 ) -> tuple[FloatArray, ...]:
-    """Return the increments of z, and of dz/dp - its value for du/dp = `limit`, for cycles from the
-    nodes and the CHECKS of each panel, with the derivative of their map and the error, as of
-    `SumIncrements`; `limit` is (parameters,)."""
-    panels, coordinate, t = iterates.density, iterates.coordinate, _positions(iterates)
-    z, at = panels.grid.states(t), _resolved(iterates, t)
-    near = np.where(at < z, at / z, 1.0)  # nearer the difference shrinks with the distance
+    """Return the fields of `SumIncrements` for cycles from the nodes and the CHECKS of each panel:
+    for z, and for dz/dp less its value for du/dp = `limit` (parameters,)."""
+    density, coordinate, t = iterates.density, iterates.coordinate, _positions(iterates)
+    z, at = density.grid.states(t), _resolved(iterates, t)
+    near = np.where(at < z, at / z, 1.0)  # nearer, the difference shrinks with the distance
     increment = step(coordinate.ahead, at, run.increment.reshape(z.shape)) / near
     one, after = np.ones(1), coordinate.rate(z + increment, np.ones(1))
     into_z = (near / after)[..., None]
@@ -208,8 +208,8 @@ def _added(
 def _of_each(
     cycle: SwitchedPeriodMap, equation: ParametrisedEquation, segments: Sequence[AnyIterates]
 ) -> list[CycleDerivatives]:
-    """Return the derivatives of the cycles that each segment needs, all of them at once: by the
-    response along a series of increments where that takes fewer cycles."""
+    """Return the derivatives of the cycles that each segment needs, all at once: by the response
+    along a series of increments where that takes fewer cycles."""
     starts = [_starts(iterates) for iterates in segments]
     wear = np.concatenate(starts)
     alone = np.full(len(wear), True)
@@ -221,8 +221,7 @@ def _of_each(
             sampled.append((series, own, along))
             alone &= ~along
     parts = [wear[alone], *(own for _, own, _ in sampled)]
-    found = map_derivatives(cycle, equation, np.concatenate(parts))
-    first, *others = _split(found, parts)
+    first, *others = _split(map_derivatives(cycle, equation, np.concatenate(parts)), parts)
     runs, order = [first], [np.flatnonzero(alone)]
     for (series, own, along), run in zip(sampled, others, strict=True):
         runs.append(Response.of(equation, series, own, run).map_derivatives(wear[along]))
