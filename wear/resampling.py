@@ -23,7 +23,7 @@ from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.quantities import SMALLEST
 from wear.scene import Scene
 
-Rows = Table | ForceTable
+LoadTable = Table | ForceTable
 
 FEWEST_ROWS = 64  # a load with fewer costs next to nothing
 NODES = 6  # between two rows, to compute the error of merging
@@ -55,7 +55,7 @@ def resampled(scene: Scene, rtol: float) -> Resampling:
     the wear depends on single rows.
     """
     load = scene.load
-    if not isinstance(load, Rows) or load.source is None or not load.source.resample:
+    if not isinstance(load, LoadTable) or load.source is None or not load.source.resample:
         return Resampling(scene, 0.0, ())
     if len(load.times_s) < FEWEST_ROWS or scene.contact.ends_at_3_sigma:
         return Resampling(scene, 0.0, ())
@@ -74,7 +74,7 @@ def resampled(scene: Scene, rtol: float) -> Resampling:
 
 
 @lru_cache(maxsize=64)  # many scenes with one load share its merged rows
-def _merged(load: Rows, step: int) -> Rows:
+def _merged(load: LoadTable, step: int) -> LoadTable:
     """Return the periodic line with every `step`-th row as a corner, by least squares."""
     from scipy.sparse import csr_array, diags_array
     from scipy.sparse.linalg import spsolve
@@ -103,7 +103,7 @@ def _merged(load: Rows, step: int) -> Rows:
     return dataclasses.replace(load, times_s=fewer, values_mm=closed)
 
 
-def _changed(model: Model, load: Rows, fewer: Rows) -> float:
+def _changed(model: Model, load: LoadTable, fewer: LoadTable) -> float:
     """Return the largest difference of the wear under two loads within a cycle, relative to its
     wear."""
     equation = WearEquation(model, (load,))
@@ -114,7 +114,7 @@ def _changed(model: Model, load: Rows, fewer: Rows) -> float:
     return float(np.max(np.max(difference, axis=1) / (np.sum(exact, axis=1) + TINY)))
 
 
-def _increments(equation: WearEquation, load: Rows, wears: FloatArray, on: Mesh) -> FloatArray:
+def _increments(equation: WearEquation, load: LoadTable, wears: FloatArray, on: Mesh) -> FloatArray:
     """Return the wear (k, q) of every interval of phase at frozen `wears` (k,)."""
     rate = equation.rate(wears[None, :, None, None], load(on.phases)[None, None])[0]
     increments: FloatArray = (rate @ on.rule.weights) * on.lengths
