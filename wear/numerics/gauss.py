@@ -76,7 +76,7 @@ def _with_matrices(x: FloatArray) -> Gauss:
     values = np.polynomial.legendre.legvander(x, m).T  # (m + 1, m): P_k at the nodes
     order = np.arange(m)
     # By the weights of NumPy, 7e-15 off at the ends, an interpolated constant would not be one.
-    coefficients: FloatArray = np.linalg.inv(values[:m].T)
+    coefficients = np.asarray(np.linalg.inv(values[:m].T), dtype=float)
     # The integral of P_k from -1 is (P_{k+1} - P_{k-1}) / (2 k + 1), and x + 1 for k = 0.
     below = np.vstack([-np.ones(m), values[: m - 1]])
     primitives = (values[1:] - below) / (2 * order[:, None] + 1)
