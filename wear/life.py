@@ -96,8 +96,8 @@ def cycles_until(
         faults.append(f"cycles cannot be counted: {against}")
     faults.stop_if_any()
     fewer, model = resampled(scene, rtol), bind(scene)
-    found = engine.first_passage(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
-    cycles, error = found.cycles.copy(), found.error + fewer.error
+    counted = engine.first_passage(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
+    cycles, error = counted.cycles.copy(), counted.error + fewer.error
     reached = [Reached.COUNTED] * len(depths)
     known = np.isfinite(cycles) & (error < NO_DIGIT)
     if not known.all():

@@ -63,10 +63,10 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     before = float(segment.begins[0]) + float(table.cycles[-size]) - within
     uncertain = float(segment.count_uncertainty[0]) + float(iterates.count_error[0][-size - 1])
     with np.errstate(all="ignore"):  # a panel that ends before the steady state does
-        found = steady_state(panel, before)
-    error = rate * uncertain + ERROR_RATIO * abs(found.drift - drift)
-    known = np.isfinite(found.offset) and error <= LARGEST_ERROR * abs(found.offset)
-    return Offset(found.offset, error, found) if known else None
+        steady = steady_state(panel, before)
+    error = rate * uncertain + ERROR_RATIO * abs(steady.drift - drift)
+    known = np.isfinite(steady.offset) and error <= LARGEST_ERROR * abs(steady.offset)
+    return Offset(steady.offset, error, steady) if known else None
 
 
 def _contact_lasts(scene: Scene, u: float) -> bool:

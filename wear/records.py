@@ -71,10 +71,10 @@ def follow(
         stopped, interrupted = "the time limit has passed", True
     except KeyboardInterrupt:
         stopped, interrupted = "interrupted", True
-    reached, found = marks[: len(u)], np.array(u)
-    relative = np.where(found > 0.0, np.array(error) / found + ROUNDOFF, 0.0)
+    reached, wear = marks[: len(u)], np.array(u)
+    relative = np.where(wear > 0.0, np.array(error) / wear + ROUNDOFF, 0.0)
     cost = Cost(2 * max(reached, default=0), evaluations)
-    return Outcome(METHOD, reached, found, relative, cost, (), stopped, interrupted)
+    return Outcome(METHOD, reached, wear, relative, cost, (), stopped, interrupted)
 
 
 def _why(wear: float, limit: float) -> str:

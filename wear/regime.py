@@ -344,13 +344,13 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, None if it is unknown, and the notices."""
-    found = orbit_of_scene(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
-    end = found.end
+    orbit = orbit_of_scene(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
+    end = orbit.end
     if end is not None and end.way == FADES:
         return None, (str(end),)
     if end is not None:
         return end.cycle, (str(end),) if end.uncertain else ()
-    _, error = found.after(np.array([float(MOST_CYCLES)]))
+    _, error = orbit.after(np.array([float(MOST_CYCLES)]))
     if np.isfinite(error).all():
         return None, (f"wear goes on for more than {MOST_CYCLES:.0e} cycles",)
     return None, ("the cycle in which wear stops cannot be counted",)

@@ -24,9 +24,9 @@ from wear.resampling import resampled
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
 
-AFFORDABLE_CYCLES = 1000  # that auto integrates one by one if the cycle count fails
+AFFORDABLE_CYCLES = 1000  # `auto` integrates up to so many one by one if the cycle count fails
 FIELDS = ("u_a", "sigma_c", "sigma_a", "h", "p", "U_c")  # of a model, as a history has them
-DIRECT_LIMIT = 1e-11  # of the accuracy that integrating them one by one can reach
+DIRECT_LIMIT = 1e-11  # the accuracy that integrating them one by one can reach
 
 
 def solve(
@@ -142,21 +142,19 @@ def _by_abel(
     cycles = tuple(sorted(set(wanted)))
     nothing = Outcome("abel", (), np.empty(0), np.empty(0), Cost(0, 0))
     try:
-        found = wear_after(
-            model, scene.load, np.array(cycles, dtype=float), rtol, deadline=deadline
-        )
+        wear = wear_after(model, scene.load, np.array(cycles, float), rtol, deadline=deadline)
     except KeyboardInterrupt:
         return nothing._replace(stopped="interrupted", interrupted=True)
     except (AccuracyError, ArithmeticError, ValueError) as fault:  # LinAlgError is a ValueError
         return nothing._replace(stopped=f"the cycles could not be counted ({fault})")
-    late = not np.all(found.error <= rtol) and time.monotonic() > deadline
-    reached = np.isfinite(found.error if late else found.u_c)
+    late = not np.all(wear.error <= rtol) and time.monotonic() > deadline
+    reached = np.isfinite(wear.error if late else wear.u_c)
     outcome = nothing._replace(
         cycles=tuple(cycle for cycle, known in zip(cycles, reached, strict=True) if known),
-        u=found.u_c[reached],
-        error=found.error[reached],
-        cost=Cost(*map(int, found.cost)),
-        notices=found.notices,
+        u=wear.u_c[reached],
+        error=wear.error[reached],
+        cost=Cost(*map(int, wear.cost)),
+        notices=wear.notices,
     )
     if late:
         return outcome._replace(stopped="the time limit has passed", interrupted=True)

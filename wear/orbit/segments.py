@@ -143,16 +143,32 @@ def orbit(
     """Return the orbits of all scenes over `cycles` (s,), or until states end, from the states
     `start` (s,), known up to `start_error` (s,), to the relative accuracy `rtol`; `keep` the cycles
     of panels, for derivatives."""
-    cost = Cost(0, 0)
-    todo = [(np.arange(problem.scenes), Request(cycles, start, start_error, deadline))]
-    segments: list[Segment] = []
-    inaccurate: list[IntArray] = []
+    request = Request(cycles, start, start_error, deadline)
+    segments, again, cost = _segments(problem, request, rtol, keep)
+    # Where the rate rises steeply, a small error of the count is a large one of the state.
+    if len(again) and rtol > TIGHT:
+        own = cycles[again], TIGHT, start[again], start_error[again], deadline, keep
+        tight = orbit(problem.take(again), *own)
+        others = [_without(segment, again) for segment in segments]
+        segments = [segment for segment in others if segment]
+        segments += [segment._replace(which=again[segment.which]) for segment in tight.segments]
+        cost = cost.plus(*tight.cost)
+    return Orbit(problem.scenes, tuple(segments), cost)
+
+
+def _segments(
+    problem: Problem, request: Request, rtol: float, keep: bool
+) -> tuple[list[Segment], IntArray, Cost]:
+    """Return the segments of all scenes, the scenes of which some states miss the accuracy `rtol`,
+    and the cost."""
+    cost, segments, inaccurate = Cost(0, 0), list[Segment](), [np.empty(0, dtype=np.intp)]
+    cycles, todo = request.cycles, [(np.arange(problem.scenes), request)]
     for _ in range(MOST_SEGMENTS):
         following = []
-        for which, request in todo:
-            batches = Batches(problem.take(which), request, rtol, keep)
+        for which, asked in todo:
+            batches = Batches(problem.take(which), asked, rtol, keep)
             for rows, iterates in batches.counts():
-                scenes, remaining = which[rows], request.take(rows)
+                scenes, remaining = which[rows], asked.take(rows)
                 begins = cycles[scenes] - remaining.cycles
                 zero = np.zeros(len(rows))
                 segments.append(Segment(scenes, iterates, begins, zero, zero))
@@ -169,23 +185,13 @@ def orbit(
                 inaccurate.append(scenes[more[~known]])
                 more = more[known]
                 if len(more):
-                    cycles_left = (remaining.cycles - ran)[more]
-                    onward = Request(cycles_left, state[more, 0], error[known], deadline)
-                    following.append((scenes[more], onward))
+                    left = (remaining.cycles - ran)[more], state[more, 0], error[known]
+                    following.append((scenes[more], Request(*left, request.deadline)))
             cost = cost.plus(*batches.cost)
         todo = following
         if not todo:
             break
-    # Where the rate rises steeply, a small error of the count is a large one of the state.
-    again = np.unique(np.concatenate([*inaccurate, np.empty(0, dtype=np.intp)]))
-    if len(again) and rtol > TIGHT:
-        own = cycles[again], TIGHT, start[again], start_error[again], deadline, keep
-        tight = orbit(problem.take(again), *own)
-        others = [_without(segment, again) for segment in segments]
-        segments = [segment for segment in others if segment]
-        segments += [segment._replace(which=again[segment.which]) for segment in tight.segments]
-        cost = cost.plus(*tight.cost)
-    return Orbit(problem.scenes, tuple(segments), cost)
+    return segments, np.unique(np.concatenate(inaccurate)), cost
 
 
 def joined(orbits: Sequence[Orbit]) -> Orbit:
