@@ -31,6 +31,7 @@ NODES = 12  # on each interval
 INTERVALS = 32  # of a cycle, at least: pulses of a hundredth of the period are resolved
 FEW_NODES = 3  # on each interval of a load of many rows
 MOST_KINKS = 200  # with all nodes
+SAME = 1e-12  # of a cycle: the distance between phases that are one
 RESOLVED = 1e-6  # of the peak: a larger tail of the interpolant rings
 FINE = 4 * NODES  # points of an interval at which its interpolant is searched for the peak
 
@@ -71,7 +72,7 @@ def _mesh(scene: Scene) -> Mesh:
     loads = scene.loads.values()
     marks = {0.0, 1.0, *(x for load in loads for x in (*load.kinks, *load.peaks))}
     edges = np.unique(np.concatenate([sorted(marks), np.arange(INTERVALS) / INTERVALS]))
-    keep = np.append(np.diff(edges) > 1e-12, True)
+    keep = np.append(np.diff(edges) > SAME, True)
     return mesh(edges[keep], NODES if len(marks) <= MOST_KINKS else FEW_NODES)
 
 

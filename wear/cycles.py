@@ -41,7 +41,7 @@ from wear.scene_orbit import IDLES, End, SceneOrbit
 
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
-KINKS = 16  # of a load: fewer scenes with more go together, for arrays of the same size
+KINKS = 16  # of a load: of scenes with more, fewer go together
 
 
 class Wear(NamedTuple):

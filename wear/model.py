@@ -133,8 +133,8 @@ class Model:
             by_load, by_constants = self.module.rate_gradient(p, u, U_a, self.constants)
         else:
             by_load, by_constants = self.module.rate_gradient(u, U_a, self.constants)
-        found = type(by_constants)._make(map(summed, by_constants))
-        return {"U_a": by_load, **self.bound.gradient(found)}
+        by_constants = type(by_constants)._make(map(summed, by_constants))
+        return {"U_a": by_load, **self.bound.gradient(by_constants)}
 
     def pressure(self, u: Real, U_a: Real, near: Real | None = None) -> Real:
         """Return the contact pressure in MPa on a compliant support, sought from a `near` one."""
@@ -208,7 +208,7 @@ class Model:
         return law / self._limited(np.inf, 1.0)
 
     def margin(self, u: Real, U_a: Real) -> Real:
-        """Return 3 sigma - h with an undeflected support, in mm; there is contact where >= 0."""
+        """Return 3 sigma - h with an undeflected support, in mm; not negative in contact."""
         return self._loss.module.margin(u, U_a, self._loss.constants)
 
     def margin_slope(self, u: Real, U_a: Real) -> Real:
@@ -218,8 +218,8 @@ class Model:
     def margin_gradient(self, u: Real, U_a: Real, summed: Summation = unchanged) -> dict[str, Real]:
         """Return the derivatives of the margin with respect to `U_a` and to every physical
         parameter that it depends on, by symbol; those with respect to parameters `summed`."""
-        found = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
-        parts = type(found)._make(summed(part + 0.0 * u) for part in found)
+        by_constants = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
+        parts = type(by_constants)._make(summed(part + 0.0 * u) for part in by_constants)
         return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(parts)}
 
     def margin_terms(self, u: Real, U_a: Real) -> Real:

@@ -58,7 +58,7 @@ class TabulatedIterates(NamedTuple):
         return Iterates(begin, none, self.table, self.density, self.count_error[None], limit, edges)
 
     def take(self, rows: IntArray) -> TabulatedIterates:
-        """Return the same: it is of one scene."""
+        """Return these iterates, which are of one scene."""
         return self
 
     @property
@@ -136,7 +136,7 @@ class UnresolvedIterates(NamedTuple):
     uncertainty: FloatArray
 
     def take(self, rows: IntArray) -> UnresolvedIterates:
-        """Return the same: it is of one scene."""
+        """Return these iterates, which are of one scene."""
         return self
 
     @property

@@ -71,8 +71,8 @@ class ModelLevels(NamedTuple):
 
 class Edge(NamedTuple):
     """The edge of contact of a model under a load: the cycle cut into `pieces`, and the `levels` of
-    the model. Where the displacement that just makes contact is one of those `grazing` (mm), with
-    so many pieces `before` (k,), the period map has a kink."""
+    the model. The period map has a kink where the displacement that just makes contact is one of
+    `grazing` (k,), mm, to which the load comes after `before` (k,) pieces."""
 
     pieces: Piece
     levels: ModelLevels

@@ -6,7 +6,7 @@ Overview
     all its digits. Arrays are (scenes, starts, intervals, nodes).
 Key results
     iterate             Newton's method for all intervals at once
-    solve               the same, interval by interval where that diverges
+    solve               the same, interval by interval where this diverges
     truncation_error    quadrature error of every interval, from its Legendre coefficients
     endpoint_defect     error between the ends of an interval and its nodes
 References

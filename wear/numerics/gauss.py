@@ -51,7 +51,7 @@ def gauss(m: int) -> Gauss:
 
 @lru_cache(maxsize=32)
 def radau(m: int) -> Gauss:
-    """Return the same for the m-point Radau rule, whose last node is the end.
+    """Return the m-point Radau rule, whose last node is the end.
 
     Collocation with it damps what decays within less than the interval, however fast: E. Hairer,
     G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, section IV.5.

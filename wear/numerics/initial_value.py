@@ -1,9 +1,9 @@
 """The adaptive integrator of u' = f(t, u): a mesh of given intervals, cut where that is needed.
 
 Overview
-    Many intervals are taken at once: half as many where the iteration fails, half an interval where
-    it fails on one, twice as many where it converges fast. A rule with more nodes estimates the
-    error of every interval, and thereby which to cut in two. Errors are propagated by the
+    Many intervals are taken at once. Their number is halved where the iteration fails and doubled
+    where it converges fast; a single interval on which it fails is cut in two. A rule with more
+    nodes estimates the error of every interval and shows which to cut. Errors are propagated by the
     linearised equation.
 Key results
     integrate    the increments and their errors, part after part

@@ -10,7 +10,7 @@ Key results
     solve              the density on them, from increments at their nodes
     residual           ln(n(P(u)) - n(u)) off the nodes
     matching_defect    the difference between the counts of neighbours where they meet
-    sum_per_cycle      the sum of a function over the orbit, by the same equation linearised
+    sum_per_cycle      sums of a function over the orbit, by the linearised equation
 References
     M. Kuczma, B. Choczewski, R. Ger, *Iterative Functional Equations*, Cambridge University Press
     1990, chapter 3.

@@ -177,7 +177,7 @@ class Batches:
             layout = _of(Layout(adapted.panels.scene, adapted.panels.density.grid), rows)
             state = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
             self._add(batch, rows, number, maps=maps, **state)
-        # The panels of the others can be cut no more: too few cycles lie behind them.
+        # More cycles are integrated before panels that are too short to be cut further.
         rest = np.flatnonzero(~accepted & ~marked)
         self._add(batch, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
         for rows, iterates in counts or self._counted(batch, take(adapted.panels, accepted[scene])):

@@ -31,7 +31,7 @@ SERIES = 4  # coefficients of the panel's series that a cell resolves
 GROWTH = 1.2  # largest change of the logarithm of the density within a cell
 MOST_CELLS = 400
 ACCURATE = 1e-8  # relative step of Newton's method: the next would be its square
-FLAT = 1e-6  # growth of an exponential that is a straight line to as many digits
+FLAT = 1e-6  # growth below which an exponential is a straight line to six digits
 MOST_NEWTON = 20
 NO_DIGIT = 0.1  # relative error: with a larger one the error estimate is void, too
 NEARLY = 1 - 1e-9  # of the limit of the states
@@ -123,8 +123,8 @@ class CountTable(NamedTuple):
 def count_table(
     panels: Density, first: float = 0.0, scenes: int = 1, start: FloatArray | None = None
 ) -> CountTable:
-    """Return n(u), the integral of the density on the panels of some scenes, the same number of
-    panels for each and the same number of cells on each panel. n is `first` where the first panel
+    """Return n(u), the integral of the density on the panels of some scenes; all scenes have the
+    same number of panels, all panels the same number of cells. n is `first` where the first panel
     of a scene starts, or at the states `start` (scenes,) on it."""
     grid = panels.grid
     rule, edges = gauss(NODES), _cell_edges(panels)
@@ -350,7 +350,7 @@ class Iterates(NamedTuple):
         return count, error
 
     def _until(self, row: int, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the same for one scene by its integrated cycles alone."""
+        """Return cycles and error of one scene by its integrated cycles alone."""
         first, error = self.transient[row], self.transient_error[row]
         # A state that is reached at the very end of a cycle needs no further one.
         known = error <= NO_DIGIT * first

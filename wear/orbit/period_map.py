@@ -130,7 +130,7 @@ class PeriodMap(NamedTuple):
 
     @property
     def full(self) -> bool:
-        """Return whether the mesh has as many intervals as it may."""
+        """Return whether the mesh has the largest permitted number of intervals."""
         intervals = int(self.over.lengths.shape[-1])
         if intervals < MOST_INTERVALS:
             return False

@@ -106,8 +106,8 @@ def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -
 
 
 def enough_before(share: FloatArray, scene: IntArray) -> BoolArray:
-    """Return the panels that are not needed: those before them in the same scene, each with its
-    `share` (panels,) of the cycles, hold all of them already."""
+    """Return the panels that are not needed, since those before them in their scene, with their
+    `share` (panels,) of the requested cycles, hold all of these."""
     before = np.concatenate([[0.0], np.cumsum(np.minimum(share, 1.0))[:-1]])
     first = np.searchsorted(scene, scene)  # the first panel of the scene of each
     return np.asarray(before - before[first] >= 1.0)

@@ -18,7 +18,7 @@ from wear.numerics.gauss import FloatArray, gauss
 from wear.orbit.abel import Density
 
 INTERVALS, NODES = 32, 24  # of the integral of the rest
-SMALL, TERMS = 0.5, 14  # exponent below which the exponential is a series of so many terms
+SMALL, TERMS = 0.5, 14  # exponents up to SMALL are inserted into a series of TERMS terms
 
 
 class SteadyState(NamedTuple):
