@@ -20,6 +20,7 @@ from wear.model import Model
 from wear.numerics.collocation import Tangent
 from wear.numerics.floating_point import ROUNDOFF, SMALLEST, TINY
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.orbit.general import CONDITION
 from wear.scene import Scene
 
 DEEPEST = 1e12  # roughnesses of wear: more than in any count
@@ -156,7 +157,7 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     the closure and the roughness, whose quotient is the argument of the contact law; with a given
     force neither enters."""
     if isinstance(model, GivenLoad):
-        return np.full(np.broadcast(displacement, wear).shape, 8 * ROUNDOFF)
+        return np.full(np.broadcast(displacement, wear).shape, CONDITION * ROUNDOFF)
     fields = model.fields(wear, displacement)
     sigma, initial = fields.sigma, model.fields(np.zeros_like(wear), displacement).sigma
     cancellation = (initial + np.abs(sigma - initial)) / sigma  # where roughness vanishes
@@ -166,5 +167,5 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     more, less = (model.rate(wear, displacement + sign * half) for sign in (1.0, -1.0))
     steepness = np.abs(more - less) / (2 * half * (np.minimum(more, less) + TINY))
     underflow = SMALLEST / np.maximum(less, SMALLEST)
-    result: FloatArray = ROUNDOFF * (8 + steepness * terms) + underflow
+    result: FloatArray = ROUNDOFF * (CONDITION + steepness * terms) + underflow
     return result

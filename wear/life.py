@@ -29,7 +29,7 @@ from wear.scene import Scene, as_scene
 from wear.solver import solve
 from wear.states import notices_of_wear
 
-MOST_ITERATIONS = 50
+MOST_ITERATIONS = 50  # for the cycles to a depth by the asymptote
 MOST_SHOWN = 5  # depths, where a life is shown in a line
 LARGEST_ERROR = 1e-3  # of an extrapolation that is reported
 NO_DIGIT = 1.0  # relative error of a number that is not known

@@ -25,7 +25,7 @@ from wear.quantities import MOST_CYCLES
 from wear.scene import Scene
 
 DEEPEST = 1e10  # roughnesses of wear up to which cycles are counted
-RTOL = 1e-13
+RTOL = 1e-13  # of the count
 LARGEST_ERROR = 1e-6  # relative; B with a larger one is unknown
 ERROR_RATIO = 100.0  # bound of the error of B over that of A, which is usually about ten
 

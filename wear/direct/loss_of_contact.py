@@ -32,6 +32,8 @@ from wear.numerics.floating_point import ROUNDOFF, TINY
 SLIDING_SAMPLES = 64  # phases of a piece at which the end of sliding is sought
 PEAK_OFFSET = 1e-12  # of a piece: distance from a peak at which its sharpness is examined
 MOST_LEGS = 1000  # in one piece: more is chatter between modes, not contact
+MOST_NEWTON = 50  # steps to the wear at the edge
+CONDITION = 16  # roundoffs in the terms of the margin
 
 
 class Mode(Enum):
@@ -115,7 +117,7 @@ def pressure_share(model: Model, u: Real, U_a: Real, rise: Real) -> Real:
 def roundoff(model: Model, u: Real, U_a: Real) -> Real:
     """Return the uncertainty of the margin (mm)."""
     now = model.fields(u, U_a)
-    return 16 * ROUNDOFF * (now.sigma + np.abs(now.h) + np.abs(U_a))
+    return CONDITION * ROUNDOFF * (now.sigma + np.abs(now.h) + np.abs(U_a))
 
 
 def cycle(
@@ -225,7 +227,7 @@ def _edge_wear(ode: WearODE, phase: Real, u: Real) -> Real:
     The margin is convex in u, and linear for one rough surface.
     """
     U_a = ode.load(phase)
-    for _ in range(50):
+    for _ in range(MOST_NEWTON):
         step = ode.model.margin(u, U_a) / ode.model.margin_slope(u, U_a)
         u = u - step
         if np.all(np.abs(step) <= 4 * ROUNDOFF * np.abs(u)):

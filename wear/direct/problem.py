@@ -19,7 +19,7 @@ from wear.numerics.floating_point import TINY
 Real = Any  # a float or an array of floats: loads and models broadcast
 PHASES = 2048  # samples of a cycle for estimates of scale and sharpness
 STEP_PER_PULSE = 0.75  # longest step over the standard deviation of a contact pulse
-DEPTH = 20.0  # closure in roughnesses up to which the contact law is sampled
+DEPTHS = np.linspace(0.0, 20.0, 81)  # closures in roughnesses at which the contact law is sampled
 
 
 class Setting(NamedTuple):
@@ -98,7 +98,7 @@ def _logarithmic_slope(model: Model, load: Load, u: float) -> float:
     """
     deepest = model.fields(u, load.maximum)
     touching = load.maximum + min(float(deepest.h), 0.0)
-    displacement = touching - float(deepest.sigma) * np.linspace(0.0, DEPTH, 81)
+    displacement = touching - float(deepest.sigma) * DEPTHS
     rate = np.asarray(model.rate(u, displacement))
     positive = rate > TINY
     if np.count_nonzero(positive) < 2:

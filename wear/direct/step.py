@@ -21,6 +21,7 @@ METHODS = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 FINEST_TOLERANCE = 110 * ROUNDOFF  # SciPy accepts no relative tolerance below 100 units of roundoff
 NEAR = 1e-6  # of a cycle: largest error of the interpolated end of contact
 SAMPLES_PER_STEP = 8  # at which a step is searched for the end of contact
+NEARLY, HARDLY_BELOW = 1.0 - 1e-9, 1.0 - 1e-12  # of the wear at which the model ends
 
 
 class EndOfModelError(Exception):
@@ -89,7 +90,7 @@ def leg(
         if solver.status == "failed":
             raise EndOfModelError(f"{setting.method} gave up: {str(complaint).rstrip('.')}")
         u = float(solver.y[0]) * ode.unit
-        if u >= ode.limit * (1.0 - 1e-9):
+        if u >= ode.limit * NEARLY:
             raise EndOfModelError(
                 f"the only rough surface has become smooth at u_c = {ode.limit:.6g} mm, "
                 "where the model ends"
@@ -127,7 +128,7 @@ def _solver(
 ) -> Any:
     from scipy import integrate
 
-    ceiling = ode.limit * (1.0 - 1e-12)  # no stage of a step may look beyond the end of the model
+    ceiling = ode.limit * HARDLY_BELOW  # no stage of a step may look beyond the end of the model
     scale = ode.load.period / ode.unit
     rate, slope, load = ode.model.rate, ode.model.slope, ode.load
 

@@ -13,6 +13,7 @@ from wear.loss_of_contact.switching import NEARLY, Edge
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 
+WEARS = np.expm1(np.linspace(0.0, 40.0, 400))  # samples, over the scale of the wear
 TINY_WEARS = 16  # samples of them: roots are found to roundoff of the larger sample
 
 
@@ -31,8 +32,7 @@ def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[Gr
     A kink where the margin is hardly more than its rounding error is left out: the map does not
     resolve it.
     """
-    far = np.expm1(np.linspace(0.0, 40.0, 400))
-    wear = shift * np.insert(far, 1, np.geomspace(ROUNDOFF, 0.1 * far[1], TINY_WEARS))
+    wear = shift * np.insert(WEARS, 1, np.geomspace(ROUNDOFF, 0.1 * WEARS[1], TINY_WEARS))
     resolved = margin_roundoff(model, load.maximum, wear)
     heights = edge.grazing[:, None]
     margin = model.margin(wear, heights)

@@ -12,6 +12,7 @@ from wear.equation import roundoff as rate_roundoff
 from wear.loss_of_contact.switching import Cycles
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
+from wear.orbit.general import CONDITION
 
 LARGEST = 1e-9  # relative error of a margin in use: a smaller margin is not resolved
 
@@ -51,7 +52,7 @@ def _of_rate(cycles: Cycles, wear: FloatArray) -> FloatArray:
     if model.compliant:
         # The pressure vanishes with the margin: its steepness is unknown there.
         known = model.margin(wear, peak) > 2 * HALF_DIFFERENCE * model.fields(wear, peak).sigma
-        error = np.where(known, error, 8 * ROUNDOFF)
+        error = np.where(known, error, CONDITION * ROUNDOFF)
     return error
 
 

@@ -22,7 +22,7 @@ from wear.numerics.gauss import BoolArray, FloatArray, Mesh, product
 
 MOST_AT_ONCE = 1024  # intervals: the arrays of more fall out of the processor's cache
 MOST_CUT = 4 * MOST_AT_ONCE  # intervals and parts of intervals at once
-FIRST_AT_ONCE = 64
+FIRST_AT_ONCE = 64  # intervals
 MOST_ROUNDS = 12  # of cutting
 SHORTEST = 1e-12  # part of an interval, over the longest interval
 FEW_ITERATIONS = 6  # no more than these: then twice as many intervals are tried

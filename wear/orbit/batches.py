@@ -33,6 +33,7 @@ from wear.orbit.transient import BLOCK, SAFETY, Transient, extended, no_cycle
 
 SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of ln(u + scale): for the mesh
 MOST_FIRST = 120  # cycles integrated one by one in a segment
+AHEAD = 10 * BLOCK  # cycles at the last rate, over which panels extend at least
 MOST_EVALUATIONS = 20_000_000  # of a scene: then the error estimate exceeds the tolerance
 ACCEPTABLE = 10.0  # times the tolerance: a residual that refinement need not reduce further
 
@@ -188,7 +189,7 @@ class Batches:
     def _grid(self, batch: Batch) -> abel.Grid:
         """Return one panel for each scene, over the range that it must cover."""
         last, limit = batch.transient.last, self.limit[batch.which]
-        ahead = 10 * BLOCK * batch.transient.last_increment if batch.transient.cycles else 0.0
+        ahead = AHEAD * batch.transient.last_increment if batch.transient.cycles else 0.0
         end = np.minimum(np.maximum(self.end[batch.which], last + ahead), limit)
         return abel.grid(COORDINATE_SCALE * self.scale[batch.which], last, end)
 

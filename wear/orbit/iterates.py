@@ -29,7 +29,7 @@ from wear.orbit.panels import PanelCycles
 NODES = 16  # on each cell
 SERIES = 4  # coefficients of the panel's series that a cell resolves
 GROWTH = 1.2  # largest change of the logarithm of the density within a cell
-MOST_CELLS = 400
+MOST_CELLS = 400  # of a panel
 ACCURATE = 1e-8  # relative step of Newton's method: the next would be its square
 FLAT = 1e-6  # growth below which an exponential is a straight line to six digits
 MOST_NEWTON = 20

@@ -36,9 +36,10 @@ from wear.numerics.rows import stacked, take
 
 COARSEST = 1e-6  # relative error: coarser meshes of phase have no valid error estimate
 LOOSEST = 1e-4  # relative error: a looser count saves nothing
+MANY_DIGITS = 1e-8  # relative error: below, series with more nodes are cheaper than more intervals
 MOST_INTERVALS = 256  # of one cycle, or, if that is more,
 MOST_CUTS = 8  # times those between its breakpoints
-FEW_NODES = 8
+FEW_NODES = 8  # on each interval of phase
 MANY_BREAKPOINTS = 128  # of one cycle: so close that between two of them FEW_NODES suffice
 MOST_VIOLENT = 1_000_000  # evaluations of the rate, for an interval of a violent cycle
 NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, so that many scenes share a number
@@ -70,7 +71,7 @@ class Settings(NamedTuple):
 def settings(rtol: float, breakpoints: Sequence[FloatArray] = ()) -> Settings:
     """Return the cheapest sizes for `rtol` where the forcing is smooth between `breakpoints` of
     each scene."""
-    phase_nodes, panel_nodes = (24, 48) if rtol < 1e-8 else (16, 24)
+    phase_nodes, panel_nodes = (24, 48) if rtol < MANY_DIGITS else (16, 24)
     if min(map(len, breakpoints), default=0) > MANY_BREAKPOINTS:
         phase_nodes = FEW_NODES
     return Settings(

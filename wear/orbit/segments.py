@@ -22,7 +22,7 @@ from wear.orbit.batches import Batches
 from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost, Problem, Request
 
-MOST_SEGMENTS = 40
+MOST_SEGMENTS = 40  # of a scene
 TIGHT = 1e-12  # relative accuracy of a second try, where the rate rises steeply
 
 
