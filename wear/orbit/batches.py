@@ -158,14 +158,16 @@ class Batches:
             return
         which, number, tolerance = batch.which, batch.transient.cycles, self.tolerance[batch.which]
         fine = batch.maps.finer(self.size)
-        adapted = adapt(batch.maps, fine, batch.layout, self.size, tolerance, self.keep)
-        self.cost = self.cost.plus(*adapted.cost)
-        spent = batch.spent + adapted.cost.rhs_evaluations / len(which)
-        scene, residual = adapted.panels.scene, adapted.panels.residual
+        panels, coarse, cost = adapt(
+            batch.maps, fine, batch.layout, self.size, tolerance, self.keep
+        )
+        self.cost = self.cost.plus(*cost)
+        spent = batch.spent + cost.rhs_evaluations / len(which)
+        scene, residual = panels.scene, panels.residual
         worst = np.zeros(len(which))
         np.maximum.at(worst, scene, np.where(np.isnan(residual), np.inf, residual))
-        marked, good = adapted.marked.any(axis=1), worst <= tolerance
-        counts = list(self._counted(batch, adapted.panels)) if number == 0 else []
+        marked, good = coarse.any(axis=1), worst <= tolerance
+        counts = list(self._counted(batch, panels)) if number == 0 else []
         for rows, iterates in counts:
             good[rows] &= iterates.largest_error <= self.rtol
         # A residual of rounding errors does not fall with refinement.
@@ -174,14 +176,14 @@ class Batches:
         accepted |= (spent > MOST_EVALUATIONS) | (marked & batch.maps.full)
         accepted |= self.request.late and number > 0
         accepted |= good & ~marked
-        for rows, maps in batch.maps.refined(adapted.marked & ~accepted[:, None]):
-            layout = _of(Layout(adapted.panels.scene, adapted.panels.density.grid), rows)
+        for rows, maps in batch.maps.refined(coarse & ~accepted[:, None]):
+            layout = _of(Layout(scene, panels.density.grid), rows)
             state = {"worst": worst[rows], "spent": spent[rows], "layout": layout}
             self._add(batch, rows, number, maps=maps, **state)
         # More cycles are integrated before panels that are too short to be cut further.
         rest = np.flatnonzero(~accepted & ~marked)
         self._add(batch, rest, max(BLOCK, 2 * number), worst=worst[rest], spent=spent[rest])
-        for rows, iterates in counts or self._counted(batch, take(adapted.panels, accepted[scene])):
+        for rows, iterates in counts or self._counted(batch, take(panels, accepted[scene])):
             kept = np.flatnonzero(accepted[rows])
             if len(kept):
                 yield which[rows[kept]], iterates if len(kept) == len(rows) else iterates.take(kept)

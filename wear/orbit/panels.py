@@ -58,25 +58,6 @@ class PanelSolution(NamedTuple):
     cycles: tuple[PanelCycles, ...] = ()
 
 
-class PanelCheck(NamedTuple):
-    """The solution on panels, the `share` (panels,) of each at which to cut it, the intervals of
-    phase to be refined instead, `marked` (panels, q), and the cost."""
-
-    panels: PanelSolution
-    share: FloatArray
-    marked: BoolArray
-    cost: Cost
-
-
-class AdaptivePanels(NamedTuple):
-    """The solution on panels of all scenes; the intervals of phase `marked` (scenes, q), which must
-    be refined before it is of use; and the cost."""
-
-    panels: PanelSolution
-    marked: BoolArray
-    cost: Cost
-
-
 def adapt(
     coarse: PeriodMap,
     fine: PeriodMap,
@@ -84,17 +65,20 @@ def adapt(
     size: Settings,
     tolerance: FloatArray,
     keep: bool,
-) -> AdaptivePanels:
+) -> tuple[PanelSolution, BoolArray, Cost]:
     """Solve Abel's equation on panels, and cut those with a residual above the `tolerance`
-    (scenes,); `keep` the cycles of panels or not."""
+    (scenes,); `keep` the cycles of panels or not. Return the solution, the intervals of phase
+    (scenes, q) that must be refined before it is of use, and the cost."""
     done: list[PanelSolution] = []
     marked = np.zeros((len(tolerance), coarse.over.lengths.shape[-1]), dtype=bool)
     cost = Cost(0, 0)
     for rounds in range(MOST_ROUNDS):
-        check = _solve_and_check(coarse, fine, layout, size, tolerance, keep)
-        fresh, (scene, grid, _) = check.panels, layout
-        cost = cost.plus(*check.cost)
-        np.logical_or.at(marked, scene, check.marked)
+        fresh, share, coarse_phase, added = _solve_and_check(
+            coarse, fine, layout, size, tolerance, keep
+        )
+        scene, grid, _ = layout
+        cost = cost.plus(*added)
+        np.logical_or.at(marked, scene, coarse_phase)
         bad = ~(fresh.residual <= tolerance[scene])
         # Beyond a panel that cannot be cut nothing is wanted; the phase is to be refined first.
         end = np.full(len(marked), np.inf)
@@ -107,10 +91,10 @@ def adapt(
             done.append(fresh)
             break
         done.append(take(fresh, ~cut))
-        layout = Layout(np.tile(scene[cut], 2), stacked(take(grid, cut).cut(check.share[cut])))
+        layout = Layout(np.tile(scene[cut], 2), stacked(take(grid, cut).cut(share[cut])))
     panels = stacked(done)
     order = np.lexsort((panels.density.grid.starts, panels.scene))
-    return AdaptivePanels(take(panels, order), marked, cost)
+    return take(panels, order), marked, cost
 
 
 def _solve_and_check(
@@ -120,8 +104,10 @@ def _solve_and_check(
     size: Settings,
     tolerance: FloatArray,
     keep: bool,
-) -> PanelCheck:
-    """Solve Abel's equation with the coarse map; check it off the nodes with the fine one."""
+) -> tuple[PanelSolution, FloatArray, BoolArray, Cost]:
+    """Solve Abel's equation with the coarse map, and check it off the nodes with the fine one.
+    Return the solution, the share (panels,) of each panel at which to cut it, the intervals of
+    phase (panels, q) to be refined instead, and the cost."""
     scene, grid, frozen = layout
     coarse, fine, allowed = coarse.take(scene), fine.take(scene), tolerance[scene]
     nodes, checks = chebyshev_nodes(size.panel_nodes), grid.states(CHECKS)
@@ -156,8 +142,7 @@ def _solve_and_check(
         marked[rows] |= by_mesh & unresolved(again.rate, maps.over, size.phase_tolerance)
         marked[rows] |= by_mesh & ~np.any(marked[rows], axis=1, keepdims=True)
     kept = tuple(PanelCycles(run.increment, run.inside) for run in (ahead, judge)) if keep else ()
-    panels = PanelSolution(scene, density, residual, short, kept)
-    return PanelCheck(panels, share, marked, cost)
+    return PanelSolution(scene, density, residual, short, kept), share, marked, cost
 
 
 def near_checks(error: FloatArray, t: FloatArray) -> FloatArray:
