@@ -28,7 +28,7 @@ _FUNCTIONS = {
     sp.Min: "Rmin", sp.Max: "Rmax",
 }  # fmt: skip
 _WORDS = (
-    "phi PI Rpower sqrt Rle_dec tends diverges continuous ex_derive Derive RInt "
+    "phi PI Rpower sqrt Rle_dec tends diverges continuous_in_time ex_derive Derive RInt "
     "fun forall exists let in if then else"
 )
 _TAKEN = frozenset((*"RCISONEtl", *_FUNCTIONS.values(), *_WORDS.split()))
@@ -176,7 +176,7 @@ def proposition(relation: sp.Basic) -> str:
     An equation between a quantity and a limit asserts that the limit exists.
     """
     if isinstance(relation, Continuous):
-        return f"continuous {field(relation.args[0])} t"
+        return f"continuous_in_time {field(relation.args[0])}"
     if isinstance(relation, sp.And):
         return " /\\ ".join(f"({proposition(part)})" for part in relation.args)
     if isinstance(relation, sp.Equivalent):
@@ -212,7 +212,7 @@ def limit(expr: sp.Limit, value: str | None) -> str:
 @cache
 def always(relation: sp.Basic) -> str:
     """Return a relation for every t >= 0; without a quantifier if t is not free in it."""
-    if t not in relation.free_symbols or _bound(relation):
+    if isinstance(relation, Continuous) or t not in relation.free_symbols or _bound(relation):
         return proposition(relation)
     return f"forall t, 0 <= t -> {proposition(relation)}"
 

@@ -115,6 +115,8 @@ class Step:
             known = self.at_time(other, time, proof)
             if isinstance(other.relation, (Inequality, sp.Ne)):
                 lines.append(f"pose proof ({known}).")
+            elif isinstance(other.relation, sp.And):
+                lines.append(f"given ({known}).")
             elif other.equates and (other.relation.lhs, 0) in signs:
                 sign = signs[other.relation.lhs, sp.S.Zero]
                 lines.append(f"pose proof (sign_of ({self.at_time(sign, time, proof)}) ({known})).")

@@ -22,7 +22,7 @@ from ..rules.growth import expanded
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..rules.solutions import ByParts
-from ..symbols import symbol, t
+from ..symbols import DATA, symbol, t
 from .printer import always, binder, field, proposition, term
 from .steps import Step
 
@@ -36,19 +36,58 @@ _RATIO = sp.Symbol("ratio", real=True)
 Values = dict[str, Any]
 
 
+def _follows(step: Step) -> Values:
+    law = step.parents[0].relation
+    return {"pressure": law.lhs, "root": law.rhs.xreplace({_LOAD: _LOAD.subs(t, 0)})}
+
+
 def _separates(step: Step) -> Values:
-    integral = step.relation.rhs
-    _, start, y = integral.limits[0]
-    first = next(h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start))
-    rate = next(r for r in step.ancestors if r.relation.args[:1] == (sp.Derivative(y, t),))
-    rates = dict.fromkeys((rate, step.frontier[0]))
-    return {"speed": step.relation.lhs / t, "integral": integral, "rates": rates, "first": first}
+    along = _by_parts(step)
+    rate, y = step.parents[0], along["integral"].limits[0][2]
+    along["speed"] = step.relation.lhs / t
+    own = [s for s in step.ancestors if s.equates and s.relation.lhs == sp.Derivative(y, t)]
+    if own:
+        return along | {"rates": dict.fromkeys((own[0], step.frontier[0]))}
+    factor = along["speed"] / rate.relation.rhs
+    return along | {"rates": [rate], "inverse": _inverse(step, y) | {"factor": factor}}
+
+
+def _inverse(step: Step, y: sp.Expr) -> Values:
+    """Return the wear W(y), and its slope W' = -P/a with a positive P and the a that are not 0.
+
+    A constant beside the data is eliminated by the wear, so that the sign of P is manifest.
+    """
+    wear = step.parents[1]
+    u, level = wear.relation.lhs, wear.relation.rhs.xreplace({_LOAD: _LOAD.subs(t, 0)})
+    apart = sp.Mul(*(s.relation.lhs for s in step.parents if isinstance(s.relation, sp.Ne)))
+    (odds,) = level.atoms(sp.log)
+    one, other = sp.fraction(odds.args[0])
+    rise, flat = sp.Symbol("rise"), level.subs(odds, sp.Function("L")(y))
+    back = {rise: one.diff(y) / one - other.diff(y) / other, sp.Function("L")(y): odds}
+    slope = flat.diff(y).subs(sp.Function("L")(y).diff(y), rise)
+    positive = -slope * apart.subs(odds, sp.Function("L")(y))
+    for name in (s for s in flat.free_symbols if s.name not in DATA | {"t"}):
+        positive = positive.subs(name, sp.solve(u - flat, name)[0])
+    positive = sp.collect(sp.expand(sp.cancel(positive)), rise).xreplace(back)
+    return {
+        "wear": wear,
+        "level": level,
+        "slope": slope.xreplace(back),
+        "apart": apart,
+        "positive": positive,
+        "loads": [h for h in step.hypotheses if h.relation.args[:1] == (_LOAD,)],
+    }
 
 
 def _by_parts(step: Step) -> Values:
-    assert isinstance(step.judgement.rule, ByParts)
-    (integral,) = step.frontier[0].relation.atoms(sp.Integral)
-    return {"integral": integral}
+    """Return an integral up to a field, its first value and the proof that it is continuous."""
+    (integral,) = (step.relation if step.rule == "Separate" else step.parents[0].relation).atoms(
+        sp.Integral
+    )
+    _, start, y = integral.limits[0]
+    first = [h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start)]
+    continuity = [s for s in step.parents if s.rule == "Follows"]
+    return {"integral": integral, "first": first, "continuity": continuity}
 
 
 def _grows(step: Step) -> Values:
@@ -170,7 +209,7 @@ def _drift(step: Step) -> Values | None:
         "mean": premises[symbol("U_mean")],
         "periodic": premises[_LOAD],
         "smooth": next(
-            p for p in step.statement.premises if p.proposition.endswith("continuous U_a t")
+            p for p in step.statement.premises if p.proposition == "continuous_in_time U_a"
         ),
     }
 
@@ -221,6 +260,7 @@ _VALUES: Mapping[str, Callable[[Step], Values | None]] = {
     "DataDerivative": _derivative,
     "Diverges": _diverges,
     "FirstOrder": _first_order,
+    "Follows": _follows,
     "Grows": _grows,
     "Integrate": _integrates,
     "ByParts": _by_parts,

@@ -7,21 +7,6 @@ Open Scope R_scope.
 
 (** ** The rate to first order in 1/t *)
 
-(** The slope of a chord from l, continuous at l. *)
-Lemma chord (F : R -> R) l d : is_derive F l d ->
-  exists G, continuous G l /\ G l = d /\ forall y, F y - F l = G y * (y - l).
-Proof.
-  intros H; set (G := fun y => if Req_EM_T y l then d else (F y - F l) / (y - l)).
-  assert (Gl : G l = d) by (unfold G; destruct (Req_EM_T l l); congruence).
-  exists G; split; [| split; [exact Gl |]].
-  - apply is_derive_Reals in H; apply continuity_pt_filterlim; intros eps He.
-    destruct (H eps He) as [del Hd]; exists del; split; [apply cond_pos |].
-    intros y [[_ Hy] Hyl]; simpl in *; unfold R_dist in *; rewrite Gl.
-    unfold G; destruct (Req_EM_T y l) as [-> | E]; [rewrite Rminus_diag_eq, Rabs_R0; trivial |].
-    specialize (Hd (y - l)); replace (l + (y - l)) with y in Hd by ring; apply Hd; lra.
-  - intros y; unfold G; destruct (Req_EM_T y l) as [-> | E]; [ring | field; lra].
-Qed.
-
 (** What is bounded times what tends to 0. *)
 Lemma bounded_vanishes a e B : (forall t, 0 <= t -> Rabs (a t) <= B) -> tends e 0 ->
   tends (fun t => e t * a t) 0.
@@ -111,24 +96,22 @@ Qed.
 
 (** A periodic, continuous function with integral 0 over a period has a bounded integral. *)
 Lemma periodic_integral a T : 0 < T -> (forall t, 0 <= t -> a (T + t) = a t) ->
-  (forall t, 0 <= t -> continuous a t) -> RInt a 0 T = 0 ->
+  (forall t, continuous a t) -> RInt a 0 T = 0 ->
   exists B, forall t, 0 <= t -> Rabs (RInt a 0 t) <= B.
 Proof.
   intros HT Hp Hc H0.
-  assert (I : forall x y, 0 <= x -> 0 <= y -> ex_RInt a x y).
-  { intros x y; apply (integrable a (Rle 0)); [exact (Rle_trans 0) | assumption]. }
+  assert (I : forall x y, ex_RInt a x y) by (intros; apply integrable, Hc).
   assert (S : forall t, 0 <= t -> RInt a 0 (t + T) = RInt a 0 t).
-  { intros t Ht; rewrite <- (RInt_Chasles a 0 T (t + T)) by (apply I; lra).
+  { intros t Ht; rewrite <- (RInt_Chasles a 0 T (t + T)) by apply I.
     rewrite H0; unfold plus; simpl; rewrite Rplus_0_l.
     assert (L : RInt (fun x => scal 1 (a (1 * x + T))) 0 t = RInt a T (t + T)).
-    { transitivity (RInt a (1 * 0 + T) (1 * t + T)); [apply (RInt_comp_lin a 1 T 0 t), I; lra |].
+    { transitivity (RInt a (1 * 0 + T) (1 * t + T)); [apply (RInt_comp_lin a 1 T 0 t), I |].
       f_equal; ring. }
     rewrite <- L; apply RInt_ext; intros x Hx; unfold scal; simpl; unfold mult; simpl.
     rewrite !Rmult_1_l, Rplus_comm; apply Hp.
     revert Hx; unfold Rmin; destruct (Rle_dec 0 t); lra. }
   destruct (continuity_ab_maj (fun x => Rabs (a x)) 0 T) as [top [Ht _]]; [lra | |].
-  { intros x Hx; apply continuity_pt_filterlim, continuous_comp;
-      [apply Hc; lra | apply continuous_Rabs]. }
+  { intros x _; apply continuity_pt_filterlim, continuous_comp; [apply Hc | apply continuous_Rabs]. }
   set (M := Rabs (a top)) in *; exists (T * M).
   assert (N : forall n t, 0 <= t <= INR n * T -> Rabs (RInt a 0 t) <= T * M).
   { induction n as [| n IH]; intros t Hn.
@@ -136,7 +119,7 @@ Proof.
       rewrite Rabs_R0; apply Rmult_le_pos; [lra | apply Rabs_pos].
     - rewrite S_INR in Hn; destruct (Rle_lt_dec t T) as [Hle | Hlt].
       + apply Rle_trans with ((t - 0) * M).
-        * apply (abs_RInt_le_const a); [lra | apply I; lra | intros; apply Ht; lra].
+        * apply (abs_RInt_le_const a); [lra | apply I | intros; apply Ht; lra].
         * apply Rmult_le_compat_r; [apply Rabs_pos | lra].
       + replace t with (t - T + T) by ring; rewrite S by lra; apply IH; lra. }
   intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
@@ -147,23 +130,22 @@ Qed.
 (** [t (u' - r) - c0 - c1 U -> 0] with periodic, continuous U of mean m:
     [(u - r t) / ln (t/T) -> c0 + c1 m]. *)
 Lemma logarithmic_drift (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
-  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> continuous U t) ->
+  (forall t, 0 <= t -> ex_derive u t) -> continuous_in_time U ->
   (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
   tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
   tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
 Proof.
-  intros HT Hu Hc Hp Hm H; set (b := fun t => U t - m); set (A := fun t => RInt b 0 t).
-  assert (Hb : forall t, 0 <= t -> continuous b t).
-  { intros t Ht; apply (continuous_minus U); [auto | apply continuous_const]. }
+  intros HT Hu Hc Hp Hm H; set (b := fun t => U (Rabs t) - m); set (A := fun t => RInt b 0 t).
+  assert (Hb : forall t, continuous b t).
+  { intros t; apply (continuous_minus (fun t => U (Rabs t))); [apply Hc | apply continuous_const]. }
   destruct (periodic_integral b T) as [B HB]; trivial.
-  { intros t Ht; unfold b; rewrite Hp; trivial. }
-  { assert (Ia : ex_RInt U 0 T) by (apply (integrable U (Rle 0)); trivial; [exact (Rle_trans 0) | |]; lra).
-    unfold b; rewrite (RInt_minus U (fun _ => m)), RInt_const, Hm; trivial.
+  { intros t Ht; unfold b; rewrite !Rabs_pos_eq, Hp by lra; trivial. }
+  { unfold b; rewrite (RInt_minus (fun t => U (Rabs t)) (fun _ => m)), RInt_const, (RInt_ext _ U), Hm.
     - unfold minus, plus, opp, scal; simpl; unfold mult; simpl; ring.
+    - intros x Hx; rewrite Rmin_left in Hx by lra; rewrite Rabs_pos_eq; lra.
+    - apply (integrable (fun t => U (Rabs t))), Hc.
     - apply ex_RInt_const. }
-  assert (HA : forall t, 0 < t -> is_derive A t (b t)).
-  { intros t Ht; apply (derive_integral b (Rle 0)); [exact (Rle_trans 0) | assumption | lra |].
-    apply (locally_interval _ _ 0 p_infty); [exact Ht | exact I | intros y Hy _; left; exact Hy]. }
+  assert (HA : forall t, is_derive A t (b t)) by (intros; apply derive_integral, Hb).
   assert (Hq : tends (fun t => A t / t) 0).
   { apply squeezed with (s := fun t => t) (B := B); [apply is_lim_id |]; intros t Ht.
     assert (P : 0 < / t) by (apply Rinv_0_lt_compat, Ht).
@@ -184,7 +166,7 @@ Proof.
     pose proof (tends_plus _ _ _ _ (tends_plus _ _ _ _ H Hq) (tends_const (c0 + c1 * m))) as G.
     replace (0 + 0 + (c0 + c1 * m)) with (c0 + c1 * m) in G by ring; revert G.
     apply is_lim_ext_loc; exists 0.
-    intros t Ht; rewrite (is_derive_unique _ _ _ (Hv t Ht)); unfold b; field; lra. }
+    intros t Ht; rewrite (is_derive_unique _ _ _ (Hv t Ht)); unfold b; rewrite Rabs_pos_eq by lra; field; lra. }
   pose proof is_lim_ln_p as Hln; fold (diverges ln) in Hln.
   pose proof (tends_inv_diverges ln Hln) as Hi.
   pose proof (tends_plus _ _ _ _ L (tends_mult _ _ _ _ Hq Hi)) as G1.

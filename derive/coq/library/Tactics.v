@@ -96,14 +96,15 @@ Ltac positive :=
   match goal with
   | |- _ /\ _ => split; positive
   | |- True => exact I
-  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra | not_zero]
+  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra | not_zero
+      | apply Rmult_integral_contrapositive_currified; positive]
   | |- ?a > ?b => apply Rlt_gt; positive
   | |- 0 < _ => first [assumption | lra | positive_part]
   | |- 0 <= _ => first [assumption | lra | positive_part]
   | |- _ => lra
   end
 with not_zero :=
-  match goal with D : _ <> 0 |- _ <> 0 =>
+  unfold Rdiv, Rminus in *; match goal with D : _ <> 0 |- _ <> 0 =>
     let E := fresh in intro E; apply D; field_simplify_eq; [lra | repeat split; assumption] end
 with positive_part :=
   match goal with
