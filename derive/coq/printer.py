@@ -28,7 +28,7 @@ _FUNCTIONS = {
     sp.Min: "Rmin", sp.Max: "Rmax",
 }  # fmt: skip
 _WORDS = (
-    "phi PI Rpower sqrt Rle_dec tends diverges continuous_in_time ex_derive Derive RInt "
+    "phi PI Rpower sqrt Rle_dec tends diverges continuous continuous_in_time ex_derive Derive RInt "
     "fun forall exists let in if then else"
 )
 _TAKEN = frozenset((*"RCISONEtl", *_FUNCTIONS.values(), *_WORDS.split()))

@@ -21,7 +21,6 @@ from sympy.core.function import AppliedUndef
 from ..rules.growth import expanded
 from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
-from ..rules.solutions import ByParts
 from ..symbols import DATA, symbol, t
 from .printer import always, binder, field, proposition, term
 from .steps import Step
