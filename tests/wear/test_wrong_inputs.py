@@ -13,6 +13,7 @@ from wear import cli
 NAN, INF = float("nan"), float("inf")
 K, HARDNESS = "bearing.wear_coefficient", "bearing.hardness_MPa=150,200"
 SECTION4 = wear.load_scene("section4")
+READ = {"cycles": [10, 100], "wear_mm": [3e-4, 8e-4]}
 OPEN: Any = wear  # whose calls below are wrong on purpose
 
 
@@ -76,14 +77,14 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.solve("section4", 1).write("wear.xlsx"),
         lambda: OPEN.fit(None, "section4", K),
         lambda: OPEN.fit([1, 2], "section4", K),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", None),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", [3]),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", K, ignore=3),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", K).forecast(0),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", K).forecast("x"),
+        lambda: OPEN.fit(READ, "section4", None),
+        lambda: OPEN.fit(READ, "section4", [3]),
+        lambda: OPEN.fit(READ, "section4", K, ignore=3),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).forecast(0),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).forecast("x"),
         lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1]}, "section4", K),
         lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [[1], None]}, "section4", K),
-        lambda: OPEN.fit({"cycles": [1, 2], "wear_mm": [1, 2]}, "section4", K, error=print),
+        lambda: OPEN.fit(READ, "section4", K, error=print),
         lambda: OPEN.study("section4", "bearing.hardness", 1, "out.zarr"),
         lambda: OPEN.study("section4", [3], 1, "out.zarr"),
         lambda: OPEN.study("section4", HARDNESS, NAN, "out.zarr"),

@@ -1,5 +1,7 @@
 """What the text becomes: marks, numbers, labels, and what refers to what."""
 
+from fractions import Fraction
+
 import jinja2
 import pytest
 from hypothesis import given
@@ -87,8 +89,8 @@ def test_escaped_words_stay_as_they_are(text: str) -> None:
 )
 def test_a_number_is_shown_to_its_digits(value: float, digits: int) -> None:
     mantissa, exponent = TextNumber(value, "test", digits).decimal
-    shown = float(f"{mantissa}e{exponent or 0}")
-    assert abs(shown - value) <= 0.5000001 * abs(value) * 10.0 ** (1 - digits)
+    shown, exact = Fraction(f"{mantissa}e{exponent or 0}"), Fraction(value)
+    assert 2 * abs(shown - exact) * 10 ** (digits - 1) <= abs(exact)
 
 
 @pytest.mark.parametrize(
