@@ -306,15 +306,6 @@ def inputs(function: Function, at: Point, constants: Mapping[str, float]) -> dic
     return {**constants, **arguments}
 
 
-def names_in(function: Function, program_of: Program) -> set[str]:
-    """Return every name that stands in a generated function."""
-    expressions = [value for _, value in function.assignments] + list(function.results)
-    constants = {name.name for name, _ in program_of.constants}
-    used = {symbol.name for expression in expressions for symbol in expression.free_symbols}
-    own = {name.name for name, _ in function.assignments} | {a.name for a in function.arguments}
-    return (used - constants) | own
-
-
 @cache
 def module_of(variant: Variant) -> ModuleType:
     """Return the free-standing NumPy source of a variant as a module."""

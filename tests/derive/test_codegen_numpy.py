@@ -354,20 +354,3 @@ def test_constants_are_accurate_to_roundoff(case):
     for name, expr in exact.exact_constants(exact.made(variant)).items():
         bound = getattr(constants, name.name)
         assert exact.judge_expression(expr, at.numbers).units(bound) <= exact.UNITS
-
-
-def test_functions_broadcast_over_arrays():
-    variant = exact.variant_of("tanh", "rigid_worn_rough_ends_at_3_sigma")
-    rows = exact.points(variant, 20)
-    module = exact.module_of(variant)
-    columns = {
-        name: np.array([[at.parameters[name]] for at in rows]) for name in module.Parameters._fields
-    }
-    signs = np.array([[at.pin_wear_sign] for at in rows])
-    constants = module.bind(module.Parameters(**columns), signs)
-    wear, load = np.array([at.u for at in rows]), np.array([at.U_a for at in rows])
-    table = module.rate(wear, load, constants)
-    assert table.shape == (20, 20)
-    for row, at in enumerate(rows):
-        alone = module.rate(wear, load, exact.bound(module, at))
-        assert np.array_equal(table[row], alone)

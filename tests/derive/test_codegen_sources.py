@@ -3,7 +3,6 @@
 import ctypes
 import decimal
 import importlib
-import json
 import math
 import re
 from pathlib import Path
@@ -12,7 +11,7 @@ import pytest
 import sympy as sp
 
 import wear.pressure_root
-from derive.codegen.emit import FORTRAN, TARGETS, C, EmitError, Target, emit
+from derive.codegen.emit import FORTRAN, TARGETS, C, EmitError, emit
 from derive.codegen.formulas import Formula, formula_module
 from derive.codegen.increment import increment
 from derive.codegen.sources import source
@@ -177,15 +176,6 @@ def test_sources_tell_what_they_are(language):
         assert max(map(len, text.splitlines())) <= 132
         assert "pow(" not in text
         assert "tanh(" not in text
-
-
-def test_fortran_does_not_take_two_names_for_one():
-    """Fortran reads U_a and u_a as the same name."""
-    for variant in VARIANTS:
-        made = exact.made(variant)
-        for function in made.functions:
-            names = {FORTRAN.rename(name) for name in exact.names_in(function, made)}
-            assert len({name.lower() for name in names}) == len(names)
 
 
 # Every variant compiles, without a warning
@@ -402,10 +392,3 @@ def test_increments_add_up_to_the_wear_that_the_model_has(module, language, need
     fields = generated.fields(found["u_c"], 0.0, exact.bound(generated, at))
     for name in states[1:]:
         assert found[name] == pytest.approx(getattr(fields, name), rel=1e-13), name
-
-
-def test_targets_are_tables():
-    """A further language is one more table and its layout."""
-    made = Target("latin", "Latin", {sp.exp: "exponens"}, lambda b, n: f"{b}^{n}", str, "pi")
-    assert emit(sp.exp(x) * sp.pi / y**2, made) == "pi * exponens(x) / (y^2)"
-    assert json.dumps(list(TARGETS)) == '["numpy", "c", "fortran", "javascript"]'

@@ -70,12 +70,6 @@ def test_what_the_expansion_leaves_falls_with_its_order(order: int) -> None:
     assert left[1] < (1e-6, 1e-11, 1e-13, 1e-15)[order - 1]
 
 
-def test_the_drift_of_section_4() -> None:
-    with mpmath.workdps(45):
-        coefficient = _of_section_4(expansion.drift(1), sp.Rational(1, 4)) * 4
-    assert agrees(coefficient, VALUES["sec4_f0.25"]["A_log_mm"], digits=28)
-
-
 def test_the_limit_and_the_expansion_give_one_drift() -> None:
     """Proved as a limit on the way to (19), and found again as c_1/f_c."""
     limit = asymptote.claim.value.subs(U_mean, 0)

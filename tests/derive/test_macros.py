@@ -99,12 +99,9 @@ def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     assert not re.search(r"\[(?:eq|der):", text)
     steps = [int(number) for number in re.findall(r"Step (\d+)\.", text)]
     assert steps == sorted(set(steps))
-    (tmp_path / "equations.tex").write_text(text, encoding="utf-8")
-    head = r"\documentclass{article}\setlength{\textwidth}{246pt}"
-    source = head + r"\usepackage{amsmath,booktabs}\begin{document}\input{equations}\end{document}"
-    (tmp_path / "other.tex").write_text(source, encoding="utf-8")
-    log = run(engine, "-interaction=nonstopmode", "-halt-on-error", "other.tex", cwd=tmp_path)
-    assert [float(too_wide) for too_wide in _WIDE.findall(log)] == []
+    (tmp_path / "equations.tex").touch()
+    log = _log(tmp_path, engine, r"\documentclass{article}\setlength{\textwidth}{246pt}", text)
+    assert _WIDE.findall(log) == []
 
 
 @pytest.mark.parametrize("length", ["246", "3 cm", "wide", "-246pt", "1e9pt"])

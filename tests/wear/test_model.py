@@ -70,13 +70,7 @@ def test_the_fields_satisfy_the_governing_equations(scene: Scene) -> None:
 def test_a_scene_has_only_the_operations_that_it_needs() -> None:
     section4, section3 = bind(load_scene("section4")), bind(load_scene("section3"))
     assert section4.operations["rate"] < section3.operations["rate"]
-    assert set(section4.operations) == {
-        "rate",
-        "rate_and_slope",
-        "rate_gradient",
-        "parameter_gradient",
-        "fields",
-    }
+    assert not {"residual", "margin"} & set(section4.operations)
     assert "residual" in bind(load_scene("soft-support")).operations
     assert "margin" in bind(load_scene("section4-cutoff")).operations
 

@@ -17,7 +17,6 @@ from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Tab
 from wear.scene import Scene, builtin_names, hard_names, load_scene, parse_scene
 from wear.scene.notices import CONTACT_REACH
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support, contact_laws
-from wear.scene.variant import VariantKey
 
 MINIMAL = GOOD.partition("\n")[2].partition("kind")[0]  # neither title nor load
 SINE = 'kind = "sine"\namplitude_mm = 5e-4\nperiod_s = 0.06\n'
@@ -78,16 +77,6 @@ def test_a_pin_has_only_what_it_needs(pin, state, symbols, opening):
     assert with_pin.variant.pin == state
     assert with_pin.pin_wear_sign == (1.0 if opening else -1.0)
     assert set(with_pin.parameters()) - set(scene.parameters()) == symbols
-
-
-def test_names_of_variants():
-    assert VariantKey("tanh", "rigid", "bearing", True).name == "rigid_bearing_ends_at_3_sigma"
-    scene = load_scene(
-        "section3", ["support.stiffness_MPa_per_mm=1e5", "contact.ends_at_3_sigma=true"]
-    )
-    assert scene.variant.name == "compliant_worn_rough_ends_at_3_sigma"
-    assert load_scene("section3-physical").variant.module == "rigid_worn_rough"
-    assert load_scene("section4", ["contact.law=exponential"]).variant.law == "exponential"
 
 
 def test_only_a_load_that_repeats_has_a_period(tmp_path):

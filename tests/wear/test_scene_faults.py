@@ -54,15 +54,10 @@ titel = "a"
 [contact]
 max_pressure_MPa = "300.0"
 closure_mm = -1.0
-closure_in_sigma = nan
-ends_at_3_sigma = 1
-law = "tahn"
 width_mm = 1.0
 [motion]
 radius_mm = true
 speed_rpm = inf
-[support]
-stiffness_MPa_per_mm = 0
 [load]
 kind = "sine"
 amplitude_mm = [1.0]
@@ -73,15 +68,11 @@ amplitude_mm = [1.0]
         (3, "", "bering"),
         (5, "contact", "max_pressure_MPa"),
         (6, "contact", "closure_mm"),
-        (7, "contact", "closure_in_sigma"),
-        (8, "contact", "ends_at_3_sigma"),
-        (9, "contact", "law"),
         (4, "contact", ""),
-        (12, "motion", "radius_mm"),
-        (13, "motion", "speed_rpm"),
-        (15, "support", "stiffness_MPa_per_mm"),
-        (18, "load", "amplitude_mm"),
-        (16, "load", "period_s"),
+        (9, "motion", "radius_mm"),
+        (10, "motion", "speed_rpm"),
+        (13, "load", "amplitude_mm"),
+        (11, "load", "period_s"),
     }
 
 

@@ -104,14 +104,6 @@ def test_what_names_mean_stands_between_the_formula_and_its_printed_form(page):
     assert page.count("Where:") == 1
 
 
-def test_screen_readers_find_their_way(outline):
-    assert outline.of("html")[0]["lang"] == "en"
-    assert all(len(outline.of(landmark)) == 1 for landmark in ("nav", "main"))
-    assert next(a for a in outline.of("a"))["href"] == "#content"
-    assert outline.can_be_followed()
-    assert all(a["role"] == "img" and a["aria-label"] for a in outline.of("svg"))
-
-
 def test_figures_follow_the_colours_of_the_page(page):
     for figure in re.findall(r"<svg.*?</svg>", page, flags=re.DOTALL):
         assert "currentColor" in figure

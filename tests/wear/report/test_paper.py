@@ -298,6 +298,10 @@ def test_the_paper_compiles_and_numbers_as_the_page_does(paper, tmp_path, need_t
 def test_screen_readers_find_their_way_in_it(paper):
     outline = Outline(page(paper))
     assert outline.can_be_followed()
+    assert outline.of("html")[0]["lang"] == "en"
+    assert all(len(outline.of(landmark)) == 1 for landmark in ("nav", "main"))
+    assert outline.of("a")[0]["href"] == "#content"
+    assert {a["role"] for a in outline.of("svg")} == {"img"}
     described = [a["aria-label"] or "" for a in outline.of("svg")]
     assert all(len(text.split()) >= 8 for text in described)
     assert len(set(described)) == len(described)
