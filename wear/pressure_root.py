@@ -1,8 +1,8 @@
-"""The contact pressure on a compliant support: the root of p = p_max phi(at + give p).
+"""The contact pressure on a compliant support: the root of p = p_max phi(ratio + softness p).
 
-`at` is the closure over the roughness with an undeflected support, `give` the deflection of the
-support per pressure in roughnesses. The left side rises with p and the right side falls, so that
-there is exactly one root.
+`ratio` is the closure over the roughness with an undeflected support, `softness` the deflection of
+the support per pressure, in roughnesses. The left side rises with p and the right side falls, so
+that there is exactly one root.
 
 It lies between two known pressures, `lower` and `upper`: the pressure at which h/sigma is at the
 law's inflection, and the law's value there. Between them the residual is concave (the law convex)
@@ -15,9 +15,9 @@ Lambert's function; four iterations then suffice unless a soft support is presse
 After a step the error is at most half its square times the curvature over the slope of the
 residual, that is at most
 
-    give step^2/2 times the largest |phi''/phi'|
+    softness step^2/2 times the largest |phi''/phi'|
 
-as |phi'| grows towards the inflection. The iteration ends where give step^2 is a quarter of the
+as |phi'| grows towards the inflection. The iteration ends where softness step^2 is a quarter of the
 roundoff of p. The remaining error is then below the rounding error of p, which is a roundoff of
 h/sigma times |phi'/phi|. See `derive.results.pressure_root`.
 """
@@ -29,9 +29,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wear.faults import AccuracyError
+from wear.numerics.floating_point import ROUNDOFF
 
 MOST_ITERATIONS = 200  # a factor e each from a bad start: more than the range of doubles needs
-CLOSE = float(np.finfo(float).eps) / 4.0
+CLOSE = ROUNDOFF / 4.0
 
 Real = Any  # a float or an array of floats
 
@@ -57,21 +58,21 @@ def pressure(module: Any, u: Real, U_a: Real, c: Any, near: Real | None = None) 
     AccuracyError
         if a single state has no pressure.
     """
-    at, give = module.undeflected(u, U_a, c), module.softness(u, c)
-    low, high = module.lower(at, give, c), module.upper(at, give, c)
-    p = module.start(at, give, c) if near is None else near
+    ratio, softness = module.undeflected(u, U_a, c), module.softness(u, c)
+    low, high = module.lower(ratio, softness, c), module.upper(ratio, softness, c)
+    p = module.start(ratio, softness, c) if near is None else near
     # Python's own functions take a tenth of the time of NumPy's on scalars.
-    scalar = isinstance(at, float)
-    smaller, larger, some = (min, max, bool) if scalar else (np.minimum, np.maximum, np.any)
+    scalar = isinstance(ratio, float)
+    smaller, larger, any_of = (min, max, bool) if scalar else (np.minimum, np.maximum, np.any)
     count = 0
     moves: Real = True
     while moves and count < MOST_ITERATIONS:
         last = smaller(larger(p, low), high)
-        p = module.newton(last, at, give, c)
+        p = module.newton(last, ratio, softness, c)
         step = p - last
-        moves = some(give * step * step > CLOSE * p)
+        moves = any_of(softness * step * step > CLOSE * p)
         count += 1
-    lost = moves or some(p != p)
+    lost = moves or any_of(p != p)
     if lost and near is not None:  # a start so far off that the law had no value there
         return pressure(module, u, U_a, c)
     if lost and (scalar or moves):

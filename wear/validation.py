@@ -1,6 +1,7 @@
 """Tables of a scene as frozen dataclasses that are checked wherever they are made.
 
-Pydantic collects the faults of all entries; the kind of an entry words the problem and the remedy.
+Pydantic collects the faults of all entries; the kind of an entry has the words for the problem and
+its remedy.
 The same checks run for a file, for `Scene.from_dict`, for a constructor and for
 `dataclasses.replace`.
 
