@@ -298,7 +298,8 @@ def cycles_to_depth(
         return first_passage(bind(scene), scene.load, depths, rtol)
 
     count, error = _in_groups(fewer, len(depths), together, alone, progress)
-    return CyclesToDepth(count, error + np.array([[each.error] for each in fewer]))
+    merged = [each.count_error(row) for each, row in zip(fewer, count, strict=True)]
+    return CyclesToDepth(count, error + np.array(merged))
 
 
 ValueAndError = tuple[FloatArray, FloatArray]

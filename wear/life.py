@@ -97,7 +97,7 @@ def cycles_until(
     faults.stop_if_any()
     fewer, model = resampled(scene, rtol), bind(scene)
     counted = engine.first_passage(model, fewer.scene.load, np.array(depths), rtol - fewer.error)
-    cycles, error = counted.cycles.copy(), counted.error + fewer.error
+    cycles, error = counted.cycles.copy(), counted.error + fewer.count_error(counted.cycles)
     reached = [Reached.COUNTED] * len(depths)
     known = np.isfinite(cycles) & (error < NO_DIGIT)
     if not known.all():

@@ -47,6 +47,11 @@ class Resampling(NamedTuple):
         grown = [growth(model, load, 0.0, u) if u > 0.0 else 0.0 for u in wear.tolist()]
         return self.error * np.array(grown)
 
+    def count_error(self, cycles: FloatArray) -> FloatArray:
+        """Return the relative error of whole numbers of cycles (n,): of whole cycles."""
+        known = np.where(np.isfinite(cycles), cycles, 0.0)
+        return np.asarray(np.ceil(self.error * known) / np.maximum(known, 1.0))
+
 
 def resampled(scene: Scene, rtol: float) -> Resampling:
     """Return a scene whose measured load has as few rows as `rtol` allows.
@@ -69,6 +74,13 @@ def resampled(scene: Scene, rtol: float) -> Resampling:
                 f"the wear by at most {error:.1e} of it; resample = false keeps all"
             )
             return Resampling(dataclasses.replace(scene, load=fewer), error, (notice,))
+    return unmerged(scene)
+
+
+def unmerged(scene: Scene) -> Resampling:
+    """Return a scene with all rows of its load."""
+    assert isinstance(scene.load, Rows)
+    rows = len(scene.load.times_s) - 1
     notice = f"all {rows} rows of the load are kept: fewer would change the wear by more than rtol"
     return Resampling(scene, 0.0, (notice,))
 

@@ -20,7 +20,7 @@ from wear.model import Model
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
 from wear.request import checked_request, is_smooth_history, obstacle
-from wear.resampling import resampled
+from wear.resampling import resampled, unmerged
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
 
@@ -75,8 +75,13 @@ def solve(
     model = bind(scene)
     deadline = np.inf if time_limit is None else start + time_limit
     fewer = resampled(scene, rtol)
-    wear = _solved(model, fewer.scene, requested, rtol - fewer.error, method, deadline, progress)
-    error = wear.error + fewer.wear_error(wear.u)
+    while True:
+        allowed = rtol - fewer.error
+        wear = _solved(model, fewer.scene, requested, allowed, method, deadline, progress)
+        error = wear.error + fewer.wear_error(wear.u)
+        if wear.interrupted or not fewer.error or np.all(error <= rtol):
+            break
+        fewer = unmerged(scene)  # where wear accelerates, the error by merged rows grows
     wear = wear._replace(error=error, notices=(*fewer.notices, *wear.notices))
     history = _history(scene, model, requested, wear, rtol, time.monotonic() - start)
     if wear.interrupted:

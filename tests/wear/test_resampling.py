@@ -90,16 +90,24 @@ def test_many_scenes_share_what_their_load_is_merged_to(tmp_path):
     assert np.all((found.error > 1e-9) & (found.error <= 1e-4))
 
 
+def test_rows_are_kept_where_wear_accelerates_beyond_their_error(tmp_path):
+    scene = measured(tmp_path).with_({"contact.closure_mm": 2.5e-3})
+    assert resampled(scene, 1e-3).error > 0.0
+    found = wear.solve(scene, [10**6, 10**10], 1e-3)
+    assert [notice for notice in found.notices if "are kept" in notice]
+
+
 def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path):
-    scene = measured(tmp_path)
-    merged = resampled(scene, 1e-4).error
-    exact = wear.cycles_until(scene.with_({"load.resample": False}), 1e-2, rtol=1e-8)
-    one = wear.cycles_until(scene, 1e-2, rtol=1e-4)
-    (many,), (error,) = cycles_to_depth([scene], np.array([1e-2]), rtol=1e-4)
-    assert many[0] == one.cycles[0]
-    assert error[0] >= merged > 0.0
-    assert one.error[0] >= merged
-    assert abs(one.cycles[0] / exact.cycles[0] - 1.0) <= one.error[0] + exact.error[0]
+    """Of whole numbers of cycles the errors are whole, too."""
+    scene, depths = measured(tmp_path), np.geomspace(1e-4, 1e-2, 200)
+    merged = resampled(scene, 1e-2).error
+    exact = wear.cycles_until(scene.with_({"load.resample": False}), depths, rtol=1e-8)
+    one = wear.cycles_until(scene, depths, rtol=1e-2)
+    (many,), (error,) = cycles_to_depth([scene], depths, rtol=1e-2)
+    assert many.tolist() == one.cycles.tolist()
+    for estimate in (error, one.error):
+        assert np.all(estimate >= merged)
+        assert np.all(np.abs(one.cycles / exact.cycles - 1.0) <= estimate + exact.error)
 
 
 def test_spiky_rows_are_resolved_between_many_breakpoints():
