@@ -79,7 +79,7 @@ def resampled(scene: Scene, rtol: float) -> Resampling:
 
 def unmerged(scene: Scene) -> Resampling:
     """Return a scene with all rows of its load."""
-    assert isinstance(scene.load, Rows)
+    assert isinstance(scene.load, LoadTable)
     rows = len(scene.load.times_s) - 1
     notice = f"all {rows} rows of the load are kept: fewer would change the wear by more than rtol"
     return Resampling(scene, 0.0, (notice,))
