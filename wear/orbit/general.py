@@ -22,14 +22,15 @@ from typing import NamedTuple
 import numpy as np
 
 from wear.numerics.collocation import Tangent
-from wear.numerics.floating_point import ROUNDOFF
-from wear.numerics.gauss import FloatArray
+from wear.numerics.floating_point import ROUNDOFF, TINY
+from wear.numerics.gauss import FloatArray, mesh
 from wear.orbit.period_map import Selection
 from wear.orbit.problem import Cost
 from wear.orbit.segments import orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
-CONDITION = 8.0  # roundoffs of a rate, by default
+LEAST_ROUNDOFFS = 8.0  # of a rate, whatever its scatter
+NOISE_STATES, NOISE_NODES = 8, 8  # states, and phases between breakpoints, for its noise
 DIFFERENCE = 1e-6  # of the state and its scale: half the distance for a difference quotient
 
 
@@ -51,7 +52,6 @@ class _General:
     scale: FloatArray
     limit: FloatArray
     breakpoints: list[FloatArray]
-    condition: float
     scenes: int = 1
 
     def take(self, rows: Selection) -> _General:
@@ -75,7 +75,13 @@ class _General:
         return (more - less) / (2 * step)
 
     def roundoff(self, u: FloatArray) -> FloatArray:
-        return np.full(u.shape, self.condition * ROUNDOFF)
+        """Estimate the noise of the rate from its fourth differences (Moré & Wild 2011)."""
+        phases = mesh(self.breakpoints[0], NOISE_NODES).phases.ravel()
+        apart = DIFFERENCE * (u + self.scale)[..., None, None]
+        rate = self.rate(u[..., None, None] + apart * np.arange(NOISE_STATES)[:, None], phases)
+        noise = np.sqrt(np.mean(np.diff(rate, 4, axis=-2) ** 2, axis=(-2, -1)) / 70)
+        largest = np.max(np.abs(rate), axis=(-2, -1)) + TINY
+        return np.maximum(LEAST_ROUNDOFFS * ROUNDOFF, noise / largest)
 
 
 def count_cycles(
@@ -88,7 +94,6 @@ def count_cycles(
     breakpoints: Sequence[float] = (),
     rtol: float = 1e-10,
     limit: float = np.inf,
-    condition: float = CONDITION,
 ) -> StatesAfter:
     """Return the states of du/dt = f(u, t), f of the given period in t, after whole `cycles`.
 
@@ -109,12 +114,10 @@ def count_cycles(
     rtol
         Requested relative error of the states; where it is missed the estimated error says so.
     limit
-        StatesAfter from here on have no meaning.
-    condition
-        Relative error of f by rounding, in units of roundoff.
+        States from here on have no meaning.
     """
     cuts = np.array([0.0, *(time / period for time in sorted(breakpoints)), 1.0])
-    equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts], condition)
+    equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts])
     requested = np.asarray(cycles, dtype=float)[None]
     with np.errstate(all="ignore"):  # trial states far off the solution may overflow
         orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
