@@ -70,4 +70,38 @@ def test_a_first_cycle_that_ends_in_rounding_is_given_up():
         found = count_cycles(
             lambda u, t: 20 * (1 - u) + 0 * t, [1], period=1.0, start=0.0, scale=1.0, limit=1.0
         )
-    assert found.error.tolist() == [np.inf]
+    assert (found.u.tolist(), found.error.tolist()) == ([1.0], [1.0])
+
+
+@pytest.mark.parametrize("power", [1, 2])
+@pytest.mark.parametrize("rate", [0.1, 1.0])
+def test_states_come_to_rest_at_a_limit(power, rate):
+    """With v = 1 - u the solutions of dv/dt = -c v^m are exp(-c t) and 1/(1 + c t)."""
+    cycles = np.array([1.0, 100.0, 1e4, 1e6, 1e12])
+    found = count_cycles(
+        lambda u, t: rate * np.maximum(1 - u, 0) ** power * (1 + np.sin(2 * np.pi * t)),
+        cycles.tolist(),
+        period=1.0,
+        start=0.0,
+        scale=1.0,
+        limit=1.0,
+    )
+    true = -np.expm1(-rate * cycles) if power == 1 else cycles * rate / (1 + cycles * rate)
+    assert np.all(np.abs(found.u / true - 1) <= found.error + 1e-15)
+    assert np.all(found.error < 1e-6)
+
+
+def test_a_rate_that_is_noise_ends_the_search_for_digits():
+    """1 + tanh(x) loses its digits where x is far below zero: du/dt is about 2 exp(-2 u) there."""
+    found = count_cycles(
+        lambda u, t: 1e-3 * (1 + np.tanh(4 * np.sin(2 * np.pi * t) - u)),
+        [1e3, 1e12],
+        period=1.0,
+        start=0.0,
+        scale=1.0,
+    )
+    far = np.log(4e9 * np.i0(8.0)) / 2  # to leading order
+    assert abs(found.u[1] / far - 1) < 1e-8
+    assert found.error[0] < 1e-12
+    assert found.error[1] < 1e-7
+    assert found.cost.rhs_evaluations < 1e8

@@ -28,13 +28,12 @@ from wear.orbit.plan import (
     look_ahead,
     planned,
 )
-from wear.orbit.problem import Cost, Problem, Request
+from wear.orbit.problem import Cost, Problem, Request, most_evaluations
 from wear.orbit.transient import BLOCK, SAFETY, Transient, extended, no_cycle
 
 SAMPLES = np.array([0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0])  # of ln(u + scale): for the mesh
 MOST_FIRST = 120  # cycles integrated one by one in a segment
 AHEAD = 10 * BLOCK  # cycles at the last rate, over which panels extend at least
-MOST_EVALUATIONS = 20_000_000  # of a scene: then the error estimate exceeds the tolerance
 ACCEPTABLE = 10.0  # times the tolerance: a residual that refinement need not reduce further
 
 
@@ -85,6 +84,7 @@ class Batches:
         self.samples = request.start[:, None] + begin[:, None] * np.expm1(y)
         floor = np.max(problem.roundoff(self.samples), axis=1)
         self.tolerance = np.maximum(size.residual_tolerance, floor)
+        self.most = most_evaluations(problem)
         self.todo: dict[tuple[int, int, int, bool], list[Batch]] = {}
 
     def counts(self) -> Iterator[tuple[IntArray, Iterates]]:
@@ -173,7 +173,7 @@ class Batches:
         # A residual of rounding errors does not fall with refinement.
         accepted = (batch.worst <= ACCEPTABLE * tolerance) & ~(worst < batch.worst / 2)
         accepted &= number > 0
-        accepted |= (spent > MOST_EVALUATIONS) | (marked & batch.maps.full)
+        accepted |= (spent > self.most[which]) | (marked & batch.maps.full)
         accepted |= self.request.late and number > 0
         accepted |= good & ~marked
         for rows, maps in batch.maps.refined(coarse & ~accepted[:, None]):
@@ -231,6 +231,9 @@ class Batches:
         """Return the integrated cycles alone."""
         which, transient = batch.which[rows], take(batch.transient, rows)
         error = self._transient_error(which, transient)
+        # What a cycle adds may be less than rounding, and yet much after many.
+        idle = ~(transient.last_increment > 0)
+        error[idle, -1] += (transient.response[:, -1] * self.request.cycles[which])[idle]
         none = np.empty((len(rows), 0))
         limit = self.limit[which]
         edges = _edges(batch.maps, rows)

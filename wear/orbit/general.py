@@ -26,11 +26,13 @@ from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray, mesh
 from wear.orbit.period_map import Selection
 from wear.orbit.problem import Cost
-from wear.orbit.segments import orbit
+from wear.orbit.segments import Orbit, orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
 LEAST_ROUNDOFFS = 8.0  # of a rate, whatever its scatter
-NOISE_STATES, NOISE_NODES = 8, 8  # states, and phases between breakpoints, for its noise
+NOISE_STATES = 8  # from which the noise of a rate is estimated
+FEW_NODES = 8  # of phase, between breakpoints
+EARLIER = 1000  # numbers of cycles for a lower bound of states near their limit
 DIFFERENCE = 1e-6  # of the state and its scale: half the distance for a difference quotient
 
 
@@ -54,6 +56,11 @@ class _General:
     breakpoints: list[FloatArray]
     scenes: int = 1
 
+    @property
+    def some_phases(self) -> FloatArray:
+        """Return a few phases between breakpoints."""
+        return mesh(self.breakpoints[0], FEW_NODES).phases.ravel()
+
     def take(self, rows: Selection) -> _General:
         return self
 
@@ -76,12 +83,15 @@ class _General:
 
     def roundoff(self, u: FloatArray) -> FloatArray:
         """Estimate the noise of the rate from its fourth differences (Moré & Wild 2011)."""
-        phases = mesh(self.breakpoints[0], NOISE_NODES).phases.ravel()
         apart = DIFFERENCE * (u + self.scale)[..., None, None]
-        rate = self.rate(u[..., None, None] + apart * np.arange(NOISE_STATES)[:, None], phases)
+        steps = np.arange(NOISE_STATES)[:, None]
+        rate = self.rate(u[..., None, None] + apart * steps, self.some_phases)
+        beside = self.rate(u[..., None, None] * (1.0 - ROUNDOFF), self.some_phases)[..., 0, :]
+        by_state = np.max(np.abs(rate[..., 0, :] - beside), axis=-1)
         noise = np.sqrt(np.mean(np.diff(rate, 4, axis=-2) ** 2, axis=(-2, -1)) / 70)
         largest = np.max(np.abs(rate), axis=(-2, -1)) + TINY
-        return np.maximum(LEAST_ROUNDOFFS * ROUNDOFF, noise / largest)
+        relative: FloatArray = (noise + by_state) / largest
+        return np.clip(relative, LEAST_ROUNDOFFS * ROUNDOFF, 1.0)
 
 
 def count_cycles(
@@ -114,7 +124,8 @@ def count_cycles(
     rtol
         Requested relative error of the states; where it is missed the estimated error says so.
     limit
-        States from here on have no meaning.
+        States from here on have no meaning. If f vanishes here, no state goes beyond it, and one
+        that is nearer to it than its own error is set to it.
     """
     cuts = np.array([0.0, *(time / period for time in sorted(breakpoints)), 1.0])
     equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts])
@@ -122,4 +133,20 @@ def count_cycles(
     with np.errstate(all="ignore"):  # trial states far off the solution may overflow
         orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
         u, error = orbits.after(requested)
+        if limit < np.inf and not np.any(equation.rate(np.array(limit), equation.some_phases)):
+            _rest(u, error, requested, limit, orbits)
     return StatesAfter(u[0], error[0], orbits.cost)
+
+
+def _rest(
+    u: FloatArray, error: FloatArray, cycles: FloatArray, limit: float, orbits: Orbit
+) -> None:
+    """Set the states u (1, n) after `cycles` to a limit at which the rate vanishes where that is
+    nearer than their error: its distance from an earlier state is their error."""
+    earlier = np.floor(np.geomspace(1.0, max(np.max(cycles), 1.0), EARLIER))[None]
+    state, uncertain = orbits.after(earlier)
+    bound = np.maximum.accumulate(np.fmax(state * (1.0 - uncertain), 0.0), axis=1)
+    before = np.searchsorted(earlier[0], cycles, side="right") - 1
+    distance = np.where(before >= 0, 1.0 - bound[0, before] / limit, np.inf)
+    near = ~(error <= distance)
+    u[near], error[near] = limit, distance[near]

@@ -114,6 +114,9 @@ class Equation(Protocol):
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u."""
 
+    def roundoff(self, u: FloatArray) -> FloatArray:
+        """Return the relative error of the rate by rounding at states u (scenes, k), at most."""
+
 
 class PeriodMap(NamedTuple):
     """The period map of the scenes of an equation on a mesh of phase, with edges (scenes, 1,
@@ -329,7 +332,8 @@ def resolved(
         scenes = equation.take(which)
         maps = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
         rate = maps.rate_without_feedback(states[which])
-        marked = unresolved(rate, maps.over, size.phase_tolerance)
+        tolerance = np.maximum(size.phase_tolerance, scenes.roundoff(states[which]))
+        marked = unresolved(rate, maps.over, tolerance[..., None])
         if maps.full:
             marked[:] = False
         calm = np.flatnonzero(~marked.any(axis=1))

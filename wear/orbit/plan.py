@@ -30,6 +30,7 @@ SMALL = 0.65  # of the state and its scale: a cycle that adds more changes the r
 SHARP = 0.3  # change of the logarithm of the density within a cycle
 MOST_LOG = 650.0  # logarithm of a density whose exponential is finite
 MOST_PLANNED = 150  # panels of a scene
+ENDS = np.array([-1.0, 1.0])  # of a panel, as positions
 
 
 def look_ahead(problem: Problem, request: Request) -> FloatArray:
@@ -94,7 +95,9 @@ def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
-        coarse = unresolved(rate, of_panels.over, size.phase_tolerance)
+        rounding = of_panels.equation.roundoff(grid.states(ENDS))
+        tolerance = np.maximum(size.phase_tolerance, np.max(rounding, axis=1))[:, None, None]
+        coarse = unresolved(rate, of_panels.over, tolerance)
         done.append(take(PanelPlan(Layout(scene, grid, kept), cycles, coarse), ~cut))
         if not cut.any():
             break

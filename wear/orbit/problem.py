@@ -11,6 +11,9 @@ from wear.numerics.gauss import FloatArray, IntArray
 from wear.numerics.rows import take
 from wear.orbit.period_map import Equation, Selection
 
+MOST_EVALUATIONS = 2e7  # of a scene with up to MANY breakpoints, else in proportion
+MANY = 100
+
 
 class Cost(NamedTuple):
     """The cost of a result: numbers of cycles integrated and of right-hand sides evaluated."""
@@ -40,9 +43,6 @@ class Problem(Equation, Protocol):
 
     def take(self, rows: Selection) -> Problem: ...
 
-    def roundoff(self, u: FloatArray) -> FloatArray:
-        """Return the relative error of the rate by rounding at states u (s, k), at most."""
-
 
 class Request(NamedTuple):
     """A request for some scenes (s,): `cycles` from the states `start`, known up to `start_error`;
@@ -61,3 +61,10 @@ class Request(NamedTuple):
     def take(self, which: IntArray) -> Request:
         """Return some of the scenes."""
         return take(self, which)
+
+
+def most_evaluations(problem: Problem) -> FloatArray:
+    """Return the right-hand sides (s,) after which a scene is refined no more: then the error
+    estimate exceeds the tolerance."""
+    numbers = np.array([len(phases) for phases in problem.breakpoints])
+    return MOST_EVALUATIONS * np.maximum(1.0, numbers / MANY)

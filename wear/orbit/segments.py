@@ -20,7 +20,7 @@ from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.orbit.batches import Batches
 from wear.orbit.iterates import NEARLY
-from wear.orbit.problem import Cost, Problem, Request
+from wear.orbit.problem import Cost, Problem, Request, most_evaluations
 
 MOST_SEGMENTS = 40  # of a scene
 TIGHT = 1e-12  # relative accuracy of a second try, where the rate rises steeply
@@ -145,8 +145,9 @@ def orbit(
     of panels, for derivatives."""
     request = Request(cycles, start, start_error, deadline)
     segments, again, cost = _segments(problem, request, rtol, keep)
+    more = cost.rhs_evaluations <= np.sum(most_evaluations(problem))
     # Where the rate rises steeply, a small error of the count is a large one of the state.
-    if len(again) and rtol > TIGHT:
+    if len(again) and rtol > TIGHT and more:
         own = cycles[again], TIGHT, start[again], start_error[again], deadline, keep
         tight = orbit(problem.take(again), *own)
         others = [_without(segment, again) for segment in segments]
@@ -163,6 +164,7 @@ def _segments(
     and the cost."""
     cost, segments, inaccurate = Cost(0, 0), list[Segment](), [np.empty(0, dtype=np.intp)]
     cycles, todo = request.cycles, [(np.arange(problem.scenes), request)]
+    most = np.sum(most_evaluations(problem))
     for _ in range(MOST_SEGMENTS):
         following = []
         for which, asked in todo:
@@ -189,7 +191,7 @@ def _segments(
                     following.append((scenes[more], Request(*left, request.deadline)))
             cost = cost.plus(*batches.cost)
         todo = following
-        if not todo:
+        if not todo or cost.rhs_evaluations > most:
             break
     return segments, np.unique(np.concatenate(inaccurate)), cost
 
