@@ -29,7 +29,7 @@ from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, orbit
 
 Rate = Callable[[FloatArray, FloatArray], FloatArray]
-LEAST_ROUNDOFFS = 8.0  # of a rate, whatever its scatter
+CONDITION = 8.0  # roundoffs of a rate, at least
 NOISE_STATES = 8  # from which the noise of a rate is estimated
 FEW_NODES = 8  # of phase, between breakpoints
 EARLIER = 1000  # numbers of cycles for a lower bound of states near their limit
@@ -91,7 +91,7 @@ class _General:
         noise = np.sqrt(np.mean(np.diff(rate, 4, axis=-2) ** 2, axis=(-2, -1)) / 70)
         largest = np.max(np.abs(rate), axis=(-2, -1)) + TINY
         relative: FloatArray = (noise + by_state) / largest
-        return np.clip(relative, LEAST_ROUNDOFFS * ROUNDOFF, 1.0)
+        return np.clip(relative, CONDITION * ROUNDOFF, 1.0)
 
 
 def count_cycles(
