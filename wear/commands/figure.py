@@ -40,7 +40,7 @@ def add_arguments(parser: Parser) -> None:
     declare(parser, "-o, --output FILE", about, type=pictures, required=True)
     about = f"last cycle shown (default: that of the last reading, or {LAST})"
     arguments.add_cycles(parser, about, usage="--cycles N")
-    about = "cycles, hours, or sliding distance (default: cycles)"
+    about = "cycles, hours, or distance, that of sliding (default: cycles)"
     arguments.add_choice(parser, "--axis AXIS", lambda: ABSCISSAE, about, default="cycles")
     about = "logarithmic axes: of cycles, and of wear or roughness that span decades"
     declare(parser, "--log", about)
@@ -103,21 +103,28 @@ def _against_cycles(options: Options, last: int) -> Answer:
     wear, *others = panels_of(histories, tuple(runs), abscissa)
     summary = _summary(histories[0].scene, cycles, options.output) | {"scenes": list(runs)}
     lines: list[str] = []
-    notices = [text for each in histories for text in run_output.notices_of(each)]
+    found = [[*run_output.notices_of(each)] for each in histories]
     if limit is not None:
         lives = [cycles_until(scene, limit, rtol=1e-6) for scene in runs.values()]
         summary["cycles_until"] = [float(life.cycles[0]) for life in lives]
         summary["reached"] = [life.reached[0].value for life in lives]
-        for name, life in zip(runs, lives, strict=True):
+        for name, life, texts in zip(runs, lives, found, strict=True):
             text = run_output.life_text(life.cycles[0], life.error[0], life.reached[0].value)
             unit = " cycles" if math.isfinite(life.cycles[0]) else ""
             lines.append(f"{name}: {limit:g} mm: {text}{unit}")
-            notices += life.notices
+            texts += life.notices
+    notices = [
+        f"{name}: {text}" if len(runs) > 1 else text
+        for name, texts in zip(runs, found, strict=True)
+        for text in dict.fromkeys(texts)
+    ]
     arguments.strict_faults(notices, options).stop_if_any()
-    shown = replace(wear, points=points_of(options.readings, runs, abscissa), limit=limit)
+    readings = [each.first(int(np.sum(each.cycles <= last))) for each in options.readings]
+    points = points_of([each for each in readings if len(each.cycles)], runs, abscissa)
+    shown = replace(wear, points=points, limit=limit)
     drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
     _write(drawn, options.output)
-    return Answer(summary, lambda: "\n".join(lines), tuple(dict.fromkeys(notices)))
+    return Answer(summary, lambda: "\n".join(lines), tuple(notices))
 
 
 def _write(drawn: object, output: Path) -> None:

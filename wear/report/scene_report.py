@@ -177,10 +177,10 @@ def _sensitivities(scene: Scene, cycles: list[int]) -> Sensitivities | None:
 
 
 def _tornado(sensitivities: Sensitivities) -> Figure:
-    """Draw the largest elasticities, without those of single rows of a load."""
+    """Draw the largest elasticities, without those of the rows of a load."""
     keys, elasticity = sensitivities.keys, sensitivities.elasticity
     order = np.argsort(-np.max(np.abs(np.nan_to_num(elasticity)), axis=1))
-    largest = [i for i in order if "[" not in keys[i]][:_BARS]
+    largest = [i for i in order if "values_" not in keys[i]][:_BARS]
     return figures.tornado([keys[i] for i in largest], elasticity[largest], sensitivities.cycles)
 
 

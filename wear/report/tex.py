@@ -30,7 +30,8 @@ _PLAIN = {
     "list_item_open": r"\item ", "list_item_close": "\n", "thead_open": "",
     "thead_close": "\\midrule\n", "tbody_open": "", "tbody_close": "", "tr_open": "",
     "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}", "document_close": "",
-    "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n\\caption{",
+    "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n"
+    "\\tabcolsep4pt\\caption{",
     "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
     "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
 }  # fmt: skip
