@@ -550,6 +550,10 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
     assert text(window, "description").endswith("is that of the merged rows.")
     assert window.run("chosen.load.phase.length") < 300
     assert text(window, "value-contact-now") == "1"
+    for choice in ("cutoff", "compliant"):
+        click(window, choice)
+    assert "only" in text(window, "notices")  # the count has spent its budget
+    assert number(text(window, "value-peak-now")) > 0.0
 
 
 def test_every_variant_is_shown_its_own_equations_and_no_others():

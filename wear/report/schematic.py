@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 from numpy.typing import NDArray
 
+from wear.binding import bind
 from wear.figure_data import WEAR
 from wear.figure_style import COLUMN, GREY, INK, canvas, panels, stroke, styled
 from wear.load import HistoryLoad
@@ -61,7 +62,7 @@ def system() -> Figure:
 
 def of_scene(scene: Scene) -> Figure:
     """Draw the rough surfaces before any wear, heights to scale, and the path of the pin."""
-    sigma_c, closure = scene.bearing.roughness_mm * WEAR.scale, scene.closure * WEAR.scale
+    sigma_c = scene.bearing.roughness_mm * WEAR.scale
     sigma_a = scene.pin.roughness_mm * WEAR.scale if scene.pin is not None else 0.0
     x, waves = _profile(1.1, 0.0)
     _, others = _profile(0.3, 0.0)
@@ -70,9 +71,9 @@ def of_scene(scene: Scene) -> Figure:
         figure, [left, right] = panels(1, 2, COLUMN, 0.72 * COLUMN)
         bearing, pin = stroke(0)["color"], stroke(1)["color"]
         surface = sigma_c * waves / np.std(waves)
-        above = closure - (0.0 if scene.given_load else paths[0][1][0])
+        above = paths[0][1][0]
         lower = above + sigma_a * others / np.std(others)
-        span = np.concatenate([surface, lower, *(closure - y for _, y in paths)])
+        span = np.concatenate([surface, lower, *(y for _, y in paths)])
         low, high = span.min() - 0.35 * np.ptp(span), span.max() + 0.35 * np.ptp(span)
         left.fill_between(x, low, surface, color=bearing, alpha=0.18, linewidth=0.0)
         left.plot(x, surface, color=bearing)
@@ -86,22 +87,27 @@ def of_scene(scene: Scene) -> Figure:
         left.spines["bottom"].set_visible(False)
         right.axhline(0.0, color=bearing, linewidth=0.8)
         right.axhspan(-sigma_c, sigma_c, color=bearing, alpha=0.18, linewidth=0.0)
-        for time, displacement in paths:
-            right.plot(time, closure - displacement, color=pin)
+        for time, height in paths:
+            right.plot(time, height, color=pin)
         right.set(xlabel=label, xlim=(paths[0][0][0], paths[0][0][-1]))
     return figure
 
 
 def _paths(scene: Scene) -> tuple[list[tuple[NDArray[np.float64], NDArray[np.float64]]], str]:
-    """Return the displacements (um) of each load over the phase of its period, or over time (s)."""
+    """Return the heights (um) of the pin under each load over the phase of its period, or over time
+    (s)."""
     load = scene.load
     if isinstance(load, HistoryLoad):
         times = np.asarray(load.times_s)
-        return [(times, load(times) * WEAR.scale)], "Time  (s)"
+        return [(times, (scene.closure - load(times)) * WEAR.scale)], "Time  (s)"
     phase = np.linspace(0.0, 1.0, 801)
-    return [
-        (phase, each(phase) * WEAR.scale) for each in scene.loads.values()
-    ], "Phase in the cycle"
+    heights = (
+        bind(scene).fields(0.0 * phase, each(phase)).h
+        if scene.given_load
+        else scene.closure - each(phase)
+        for each in scene.loads.values()
+    )
+    return [(phase, height * WEAR.scale) for height in heights], "Phase in the cycle"
 
 
 def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -98,7 +98,8 @@ function step(f, x, y, h) {
 
 function makeSolver(functions, c, load, period) {
   let evaluations = 0;
-  const most = MOST_EVALUATIONS * Math.max(1, load.corners.length / 100);
+  const budget = MOST_EVALUATIONS * Math.max(1, load.corners.length / 100);
+  let most = budget;
   const ends = functions.margin !== undefined;
   const jumps = ends && functions.residual === undefined; // a support makes the jump a bend
   const rate = jumps ? functions.rate : functions.right_hand_side;
@@ -242,7 +243,11 @@ function makeSolver(functions, c, load, period) {
     return span(0, 1, u, scale);
   }
 
-  return { cycle, span, cost: () => evaluations };
+  // A further budget: what is shown of single cycles does not fail where the count has spent its own.
+  const renew = () => {
+    most = evaluations + budget;
+  };
+  return { cycle, span, renew, cost: () => evaluations };
 }
 
 // Chebyshev points of a panel, and the matrices that differentiate and integrate through them.
