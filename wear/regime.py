@@ -330,7 +330,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
     if case.scene.support is None:
         cycle, notices = _arrest_cycle(case)
     else:
-        notices = ("on a compliant support wear approaches the depth of arrest without reaching it",)
+        notices = ("on a compliant support wear nears the depth of arrest without reaching it",)
     return _result(
         case,
         "arrest",

@@ -81,7 +81,8 @@ def heat_map(results: xarray.Dataset, across: str, up: str) -> Figure:
 
 
 def band(results: xarray.Dataset) -> Figure:
-    """Return the median of the wear and the bands of 50 % and 90 % of the samples over cycles."""
+    """Return the median of the wear and the bands of 50 % and 90 % of the samples over cycles; for
+    one number of cycles, the distribution of the wear."""
     with styled():
         figure, axes = canvas(COLUMN, 0.7 * COLUMN)
         _band(axes, results)
@@ -93,23 +94,16 @@ def life(results: xarray.Dataset) -> Figure:
 
     Where wear ends below the depth the distribution ends below one. A cross marks the 10 % life.
     """
-    count = np.sort(results["cycles_to_wear"].values[results["status"].values == 0])
-    share = np.arange(1, len(count) + 1) / max(len(count), 1)
-    finite = np.isfinite(count)
+    count = results["cycles_to_wear"].values[results["status"].values == 0]
     with styled():
         figure, axes = canvas(COLUMN, 1.2 * COLUMN)
         axes.remove()
         top, bottom = figure.subplots(2, 1)
         _band(top, results)
         look = stroke(1)
-        bottom.step(count[finite], share[finite], where="post", color=look["color"])
-        if finite.any():
-            _scale(bottom, "x", count[finite])
-        bottom.set_ylim(0.0, 1.0)
+        _distribution(bottom, count, look["color"])
         bottom.set_xlabel("Cycles to the wear depth")
-        bottom.set_ylabel("Share of contacts")
-        if (share[finite] >= _FAILED).any():
-            ten = ten_percent_life(results)
+        if len(count) and np.isfinite(ten := ten_percent_life(results)):
             bottom.plot([ten], [_FAILED], "x", color=look["color"])
             note = f"10 % life: {in_short(ten)} cycles"
             bottom.annotate(note, (ten, _FAILED), (6, -2), textcoords="offset points", va="top")
@@ -151,6 +145,10 @@ def _band(axes: Axes, results: xarray.Dataset) -> None:
     wear = results["bearing_wear_mm"].values[results["status"].values == 0]
     low, lower, middle, upper, high = np.quantile(wear, _SHARES, axis=0) * _MICROMETRES_PER_MM
     cycles, look = results["cycle"].values, stroke(0)
+    if len(cycles) == 1:
+        _distribution(axes, wear[:, 0] * _MICROMETRES_PER_MM, look["color"])
+        axes.set_xlabel(f"{_WEAR} after {in_short(cycles[0])} cycles")
+        return
     axes.fill_between(cycles, low, high, color=look["color"], alpha=0.2, lw=0, label="90 %")
     axes.fill_between(cycles, lower, upper, color=look["color"], alpha=0.4, lw=0, label="50 %")
     axes.plot(cycles, middle, color=look["color"], marker=look["marker"], label="median")
@@ -159,6 +157,16 @@ def _band(axes: Axes, results: xarray.Dataset) -> None:
     axes.set_xlabel("Cycles  $N$")
     axes.set_ylabel(_WEAR)
     axes.legend()
+
+
+def _distribution(axes: Axes, values: FloatArray, colour: str) -> None:
+    """Draw the share of samples up to each value; infinite ones count, and are not drawn."""
+    ordered = np.sort(values)
+    share, finite = np.arange(1, len(ordered) + 1) / len(ordered), np.isfinite(ordered)
+    axes.step(ordered[finite], share[finite], where="post", color=colour)
+    if finite.any():
+        _scale(axes, "x", ordered[finite])
+    axes.set(ylim=(0.0, 1.0), ylabel="Share of contacts")
 
 
 def _spans_decades(values: FloatArray) -> bool:
