@@ -183,6 +183,8 @@ def plain(value: object) -> Any:
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Return rows of text in right-aligned columns, below headers of one or more lines.
 
+    Columns beyond the width of a terminal follow below, beside the first column again.
+
     >>> print(table(["cycle", "wear\\n(mm)"], [["1", "1e-05"], ["100", "0.001"]]))
             wear
     cycle   (mm)
@@ -196,7 +198,14 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
         for place, head in enumerate(heads)
     ]
     aligned = [[entry.rjust(max(map(len, column))) for entry in column] for column in columns]
-    return "\n".join("  ".join(line).rstrip() for line in zip(*aligned, strict=True))
+    room = shutil.get_terminal_size().columns if sys.stdout.isatty() else math.inf
+    blocks = [aligned[:1]]
+    for column in aligned[1:]:
+        if sum(len(each[0]) + 2 for each in blocks[-1]) + len(column[0]) > room:
+            blocks.append(aligned[:1])
+        blocks[-1] = [*blocks[-1], column]
+    lines = (zip(*block, strict=True) for block in blocks)
+    return "\n\n".join("\n".join("  ".join(x).rstrip() for x in block) for block in lines)
 
 
 def count(number: int, noun: str) -> str:

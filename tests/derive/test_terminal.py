@@ -223,3 +223,10 @@ def test_bash_completes(parser, need_tool, words, offered, tmp_path, monkeypatch
     (tmp_path / "mine of today.toml").touch()
     monkeypatch.chdir(tmp_path)
     assert complete(completion.bash(parser), *words) == offered
+
+
+def test_a_table_wider_than_the_terminal_goes_on_below(monkeypatch):
+    monkeypatch.setattr(terminal.sys.stdout, "isatty", lambda: True, raising=False)
+    monkeypatch.setenv("COLUMNS", "13")
+    shown = terminal.table(["cycle", "wear", "closure"], [["1", "2.5", "3"]])
+    assert shown == "cycle  wear\n    1   2.5\n\ncycle  closure\n    1        3"
