@@ -2,7 +2,6 @@
 
 import csv
 import json
-import math
 import re
 import signal
 import subprocess
@@ -16,7 +15,7 @@ import numpy as np
 import pytest
 
 from tests import programs
-from wear.commands.run_output import latex_number, text
+from wear.commands.run_output import text
 from wear.faults import AccuracyError, Interrupted
 from wear.load.spans import most_cycles
 from wear.scene import load_scene
@@ -101,14 +100,6 @@ def test_the_latex_table_compiles(run, need_tool, tmp_path):
     command = ("latexmk", "-pdf", "-interaction=nonstopmode", "-halt-on-error", "main.tex")
     programs.run(*command, cwd=tmp_path)
     assert "Overfull" not in (tmp_path / "main.log").read_text()
-
-
-@pytest.mark.parametrize("number", [0.0, 1.0, -2.5e-7, 4.6355474275170e-8, 1e12, 123456.7, 0.02])
-def test_a_number_in_latex_is_that_number(number):
-    text = latex_number(number, 17).replace(r"\times ", "*")
-    mantissa, _, power = text.rpartition("10^{") if "10^{" in text else (text, "", "0}")
-    value = float(mantissa.strip("*") or 1) * 10.0 ** int(power.strip("}"))
-    assert math.isclose(value, number, rel_tol=1e-15)
 
 
 @pytest.mark.parametrize(("fault", "status"), [("interrupted", 130), ("accuracy", 3)])

@@ -85,7 +85,7 @@ def latex(history: History) -> str:
     symbols = ["$N$", *(f"${COLUMNS[name].latex}$" for name in quantities)]
     units = ["", *(rf"\textnormal{{{unit_of(name)}}}" for name in quantities)]
     rows = [
-        [f"${latex_number(cycle, 15)}$", *(f"${latex_number(x, 8)}$" for x in state)]
+        [f"${_number(cycle, 15)}$", *(f"${_number(x, 8)}$" for x in state)]
         for cycle, *state in zip(history.cycles, *quantities.values(), strict=True)
     ]
     title = " ".join(history.scene.split())
@@ -104,20 +104,13 @@ def latex(history: History) -> str:
     )
 
 
-def latex_number(number: float, digits: int) -> str:
-    r"""Return a number for math mode, to so many significant digits.
+def _number(value: float, digits: int) -> str:
+    """Return a number for math mode, to so many significant digits."""
+    from wear.report.number import TextNumber, significant
 
-    >>> latex_number(4.41333e-3, 3), latex_number(1e8, 15), latex_number(12.0, 3)
-    ('4.41\\times 10^{-3}', '10^{8}', '12')
-    """
-    if not math.isfinite(number):
+    if not math.isfinite(value):
         return r"\text{--}"
-    if number == 0.0 or (1e-2 <= abs(number) < 1e6 and abs(number) < 10.0**digits):
-        return f"{number:.{digits}g}"
-    mantissa, _, exponent = f"{number:.{digits - 1}e}".partition("e")
-    power = f"10^{{{int(exponent)}}}"
-    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
-    return power if mantissa == "1" else rf"{mantissa}\times {power}"
+    return TextNumber(value, "run", significant(value, digits)).latex
 
 
 def write(history: History, path: Path) -> None:
