@@ -1,6 +1,5 @@
 """Judgements of the chain are tried on models, and every hypothesis has a reason."""
 
-import pytest
 import sympy as sp
 
 from derive import catalogue
@@ -9,34 +8,6 @@ from derive.reasons import outdated, table
 from derive.rules.drift import LeadingTerm
 from derive.symbols import symbols
 from tests.derive.judgements import eq, gt
-
-
-@pytest.mark.parametrize(
-    "identifier",
-    [
-        "7c",
-        "8",
-        "13",
-        "share",
-        "threshold",
-        "deviation",
-        "compliant-pressure",
-        "groups-one-solid",
-        "one-third",
-        "arrest-depth-two-solids",
-        "expansion-drift",
-        "groups-compliant",
-        "elasticities",
-        "static-solution-compliant",
-        "log-drift-compliant",
-        "16b",
-    ],
-)
-def test_models_agree_with_an_equation(identifier: str):
-    for statement in catalogue.equation(identifier).statements:
-        answer = try_on_models(statement)
-        assert answer.passed, str(answer)
-        assert answer.decided
 
 
 def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_it():

@@ -10,15 +10,9 @@ def test_a_fault_names_what_it_has() -> None:
     assert str(lacking) == "scene.toml: load: missing; add a table [load]"
 
 
-def test_scene_error_tells_all_faults() -> None:
-    faults = [Fault("a.toml", n, "bearing", f"key{n}", "unknown key", "drop it") for n in (1, 2)]
-    assert str(SceneError(faults)).splitlines() == [str(fault) for fault in faults]
-    assert SceneError(faults).faults == tuple(faults)
-
-
 def test_scene_error_does_not_flood_the_terminal() -> None:
     faults = [Fault("a.toml", n, "", "x", "unknown key", "drop it") for n in range(200)]
     lines = str(SceneError(faults)).splitlines()
-    assert len(lines) == MOST_FAULTS_SHOWN + 1
+    assert lines[:-1] == [str(fault) for fault in faults[:MOST_FAULTS_SHOWN]]
     assert lines[-1] == f"... and {200 - MOST_FAULTS_SHOWN} more faults"
-    assert len(SceneError(faults).faults) == 200
+    assert SceneError(faults).faults == tuple(faults)

@@ -91,6 +91,7 @@ def test_an_arrest_that_cannot_be_counted_is_not_told(monkeypatch):
 
 def test_one_third_with_cutoff():
     found = _asymptote("f-one-third")
+    assert found.regime == "steady"
     assert found.wear_per_cycle_mm == pytest.approx(_published("cutoff", "u_cum_f_1/3"), rel=1e-14)
 
 
