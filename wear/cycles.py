@@ -306,7 +306,7 @@ ValueAndError = tuple[FloatArray, FloatArray]
 
 
 def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
-    """Return the orbit of scenes of one variant over so many `cycles`."""
+    """Return the orbits of scenes of one variant, over as many `cycles` each."""
     if scenes[0].contact.ends_at_3_sigma:
         models, loads = [bind(scene) for scene in scenes], [scene.periodic_load for scene in scenes]
         parts = zip(models, loads, edges_of_contact(models, loads), strict=True)

@@ -38,9 +38,9 @@ ACCEPTABLE = 10.0  # times the tolerance: a residual that refinement need not re
 
 
 class Batch(NamedTuple):
-    """Scenes `which` with their period maps and transient; the number of cycles `needed` in that;
-    the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the `layout` of panels
-    to begin with, if one is known."""
+    """Scenes `which` with their period maps and transient; the number of integrated cycles `needed`
+    before panels; the `worst` residual (s,) so far, the right-hand sides `spent` (s,), and the
+    `layout` of panels to begin with, if one is known."""
 
     which: IntArray
     maps: PeriodMap

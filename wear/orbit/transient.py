@@ -42,10 +42,10 @@ class Transient(NamedTuple):
         """Return the increment of the last cycle (s,)."""
         return self.states[:, -1] - self.states[:, -2]
 
-    def then(self, increment: FloatArray, *each: FloatArray) -> Transient:
-        """Return the transient with more cycles (s, j)."""
+    def then(self, increment: FloatArray, *columns: FloatArray) -> Transient:
+        """Return the transient with more cycles; `columns` (s, j) are their other fields."""
         states = self.last[:, None] + np.cumsum(increment, axis=1)
-        pairs = zip(self, (states, *each), strict=True)
+        pairs = zip(self, (states, *columns), strict=True)
         return Transient(*(np.concatenate(pair, axis=1) for pair in pairs))
 
     def error(self, start_error: FloatArray, roundoff: FloatArray) -> FloatArray:
