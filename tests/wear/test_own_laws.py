@@ -6,11 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import sympy as sp
 from scipy.integrate import solve_ivp
 
 import wear
 from derive.faults import UsageError as NotUnderstood
+from derive.laws import r
 from derive.own_law import normal
+from tests.derive.reading_back import CLASSES, read_back
 from tests.programs import python
 from wear import own_laws
 from wear.binding import bind
@@ -89,9 +92,10 @@ def test_sensible_laws_of_any_numbers_are_derived(text):
     scene, U_a = with_law(text, "soft-support"), np.linspace(-5e-4, 5e-4, 5)
     found = bind(scene).pressure(0.0, U_a)
     gap = scene.closure - U_a + found / scene.support.stiffness_MPa_per_mm
-    functions = {"r": gap / scene.initial_roughness, "exp": np.exp, "tanh": np.tanh}
-    law = eval(text.replace("^", "**"), functions | {"sqrt": np.sqrt})
-    assert found == pytest.approx(scene.contact.max_pressure_MPa * law, rel=1e-12)
+    law = read_back(text.replace("^", "**"), CLASSES | {"r": r, "sqrt": sp.sqrt})
+    ratios = gap / scene.initial_roughness
+    share = [float(law.evalf(30, subs={r: ratio})) for ratio in ratios.tolist()]
+    assert found == pytest.approx(300.0 * np.array(share), rel=1e-12)
 
 
 def test_the_asymptote_is_that_of_the_law():
