@@ -39,6 +39,7 @@ from wear.resampling import Resampling, resampled
 from wear.scene import Scene
 from wear.scene_orbit import IDLES, End, SceneOrbit
 
+GRACE = 5.0  # s after a deadline for the cycle at work
 FARTHER = 1e3  # times as many cycles are counted where a wear depth was not reached
 TOGETHER = 1024  # scenes in one set of arrays
 KINKS = 16  # of a load: of scenes with more, fewer go together
@@ -79,11 +80,12 @@ def orbit_of_scene(
     deadline: float = np.inf,
 ) -> SceneOrbit:
     """Return the orbit of a scene over up to `cycles` of a load that repeats, from the wear `start`
-    (mm); after the `deadline` (`time.monotonic()`) nothing is refined."""
+    (mm); after the `deadline` (`time.monotonic()`) nothing is refined, and a little later a
+    `TimeoutError` ends the cycle at work."""
     if model.ends_at_3_sigma:
         request = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
-        return count_scenes([request], rtol, deadline)[0]
-    one, equation = np.ones(1), WearEquation(model, (load,))
+        return count_scenes([request], rtol, deadline, GRACE)[0]
+    one, equation = np.ones(1), WearEquation(model, (load,), deadline=deadline + GRACE)
     states = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
     last = states.segments[-1]
     if not states.at_rest[0] or np.isinf(states.after(np.full((1, 1), cycles))[1][0, 0]):
@@ -143,7 +145,10 @@ def stages(
     while True:
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
-        solution = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
+        try:
+            solution = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
+        except TimeoutError:
+            return
         stage = Stage(acting, done, ends, solution, 0.0)
         if ends >= last and not start_error:
             yield stage

@@ -6,8 +6,9 @@ of the model go together: their constants are arrays along the first axis.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 
@@ -33,10 +34,12 @@ SAME = 1e-9  # of a cycle: phases nearer to its ends are the ends
 @dataclass(frozen=True)
 class WearEquation:
     """The wear of scenes of one variant: the model of all, its constants of shape (scenes, 1), or
-    plain numbers for one scene; and the load of each."""
+    plain numbers for one scene; and the load of each. Rates after the `deadline`
+    (`time.monotonic()`) raise a `TimeoutError`: one evaluation over many rows takes seconds."""
 
     model: Model
     loads: tuple[Load, ...]
+    deadline: float = field(default=np.inf, kw_only=True)
 
     @property
     def scenes(self) -> int:
@@ -69,6 +72,8 @@ class WearEquation:
         """Return the wear in mm per cycle, times `lengths`, at wear (scenes, starts, intervals,
         nodes) under a displacement, both in mm. On a compliant support the root search for the
         pressure starts from that at the end of a tangent."""
+        if time.monotonic() > self.deadline:
+            raise TimeoutError
         times = self._period * lengths
         known = near.end / times if self.model.compliant and near is not None else None
         rate: FloatArray = self._model.rate(u, forcing, known)

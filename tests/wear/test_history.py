@@ -166,6 +166,14 @@ def test_blocks_out_of_time_keep_the_first_one(cutoff):
     assert stop.value.history.cycles.tolist() == [1, 3]
 
 
+@pytest.mark.parametrize("cutoff", [False, True])
+def test_out_of_time_within_the_first_cycle(monkeypatch, cutoff):
+    monkeypatch.setattr("wear.cycles.GRACE", 0.0)
+    with pytest.raises(Interrupted, match="time limit has passed; no requested cycle") as stop:
+        solve(made(cutoff=cutoff), [1], 1e-10, "abel", time_limit=1e-9)
+    assert len(stop.value.history.cycles) == 0
+
+
 @pytest.mark.parametrize("fault", [np.linalg.LinAlgError("singular"), FloatingPointError("lost")])
 def test_a_count_that_breaks_down_is_told_and_auto_goes_on(monkeypatch, fault):
     def broken(*_, **__):

@@ -83,11 +83,12 @@ class CountRequest(NamedTuple):
 
 @np.errstate(all="ignore")
 def count_scenes(
-    requests: Sequence[CountRequest], rtol: float, deadline: float = np.inf
+    requests: Sequence[CountRequest], rtol: float, deadline: float = np.inf, grace: float = np.inf
 ) -> list[SceneOrbit]:
     """Count the cycles of scenes of one variant, or until wear ends.
 
-    After the `deadline` (`time.monotonic()`) a few cycles are integrated at most.
+    After the `deadline` (`time.monotonic()`) a few cycles are integrated at most; `grace` seconds
+    later a `TimeoutError` ends them.
     """
     models, loads = [each.model for each in requests], [each.load for each in requests]
     edges = [each.edge for each in requests]
@@ -98,7 +99,7 @@ def count_scenes(
     counts = [_count(each, rtol, deadline) for each in requests]
     answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _wear_ranges]
     answers += [cycles_by(coarse), cycles_by(fine)]
-    counters = run_together(counts, answers)
+    counters = run_together(counts, answers, deadline + grace)
     parts = [part for counter in counters for part in counter.parts]
     scene = np.repeat(np.arange(len(counters)), [len(counter.parts) for counter in counters])
     found = iter(with_error(parts, scene, [counter.problem for counter in counters], coarse.cycles))

@@ -6,6 +6,7 @@ cycles, or the solutions of Abel's equation, that it needs next, and continues w
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Generator, Iterable, Sequence
 from typing import Any, NamedTuple, TypeVar
 
@@ -39,9 +40,11 @@ def without_feedback(wear: FloatArray) -> Coroutine[FloatArray]:
     return np.asarray(np.sum(added, axis=1).reshape(wear.shape))
 
 
-def run_together(counts: Sequence[Coroutine[T]], answers: Sequence[BatchSolver]) -> list[T]:
+def run_together(
+    counts: Sequence[Coroutine[T]], answers: Sequence[BatchSolver], deadline: float = np.inf
+) -> list[T]:
     """Run the counts of all scenes to their ends and return their results; `answers` has a solver
-    for each kind of query."""
+    for each kind of query. After the `deadline` (`time.monotonic()`) raise a `TimeoutError`."""
     results: dict[int, T] = {}
     asked: dict[int, Query] = {}
 
@@ -54,6 +57,8 @@ def run_together(counts: Sequence[Coroutine[T]], answers: Sequence[BatchSolver])
     for scene in range(len(counts)):
         go_on(scene, None)
     while asked:
+        if time.monotonic() > deadline:
+            raise TimeoutError
         kind = min(request.kind for request in asked.values())
         some = [scene for scene, request in asked.items() if request.kind == kind]
         arguments = [asked.pop(scene).argument for scene in some]

@@ -43,6 +43,7 @@ FEW_NODES = 8  # on each interval of phase
 MANY_BREAKPOINTS = 128  # of one cycle: so close that between two of them FEW_NODES suffice
 MOST_VIOLENT = 1_000_000  # evaluations of the rate, for an interval of a violent cycle
 NUMBERS = (1, 2, 3, 6, 12, 24, 48, 96, 192)  # of intervals, so that many scenes share a number
+MOST_AT_ONCE = 10_000_000  # rates of a scene under a long record
 IN_CACHE = 12000  # numbers in an array that stays in the processor's cache beside a few others
 # Of `truncation_error`: in 99 of 100 random scenes the error is less than three times that.
 TAIL_SHARE = 1 / 12
@@ -189,7 +190,10 @@ class PeriodMap(NamedTuple):
 
     def increment_without_feedback(self, u: FloatArray) -> FloatArray:
         """Return the increments (scenes, k) of cycles with that rate."""
-        return integral(self.rate_without_feedback(u), self.over)
+        parts = 1 + u[0].size * self.forcing[0].size // MOST_AT_ONCE
+        some = np.array_split(u, min(parts, u.shape[1]), axis=1)
+        each = [integral(self.rate_without_feedback(part), self.over) for part in some]
+        return np.concatenate(each, axis=1)
 
     def consecutive(self, starts: FloatArray, number: int) -> CycleSolution:
         """Return a `number` of consecutive cycles from each start (scenes,), all at once on copies
