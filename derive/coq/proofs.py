@@ -49,8 +49,11 @@ def _discharged(step: Step) -> Iterator[str]:
     """Yield the proof by the first parent, whose additional premises follow from the others."""
     (first, premises), *_ = step.missing
     for premise in premises:
-        ways = " | ".join(f"solve [{way}]" for way in inequality(step, premise.relation))
         fixed = "intros t Ht; " if premise.timed else ""
+        tactics = [*inequality(step, premise.relation)]
+        if premise.timed:
+            tactics.append("; ".join([*(line[:-1] for line in step.signs()), tactics[0]]))
+        ways = " | ".join(f"solve [{way}]" for way in tactics)
         yield f"assert ({premise.label}_met : {premise.proposition}) by ({fixed}first [{ways}])."
     labels = step.labels | {p.proposition: f"{p.label}_met" for p in premises}
     cited = (labels[p.proposition] for p in first.statement.premises)

@@ -110,21 +110,17 @@ Proof.
     rewrite <- L; apply RInt_ext; intros x Hx; unfold scal; simpl; unfold mult; simpl.
     rewrite !Rmult_1_l, Rplus_comm; apply Hp.
     revert Hx; unfold Rmin; destruct (Rle_dec 0 t); lra. }
-  destruct (continuity_ab_maj (fun x => Rabs (a x)) 0 T) as [top [Ht _]]; [lra | |].
-  { intros x _; apply continuity_pt_filterlim, continuous_comp; [apply Hc | apply continuous_Rabs]. }
-  set (M := Rabs (a top)) in *; exists (T * M).
-  assert (N : forall n t, 0 <= t <= INR n * T -> Rabs (RInt a 0 t) <= T * M).
-  { induction n as [| n IH]; intros t Hn.
-    - simpl in Hn; replace t with 0 by lra; rewrite RInt_point; unfold zero; simpl.
-      rewrite Rabs_R0; apply Rmult_le_pos; [lra | apply Rabs_pos].
-    - rewrite S_INR in Hn; destruct (Rle_lt_dec t T) as [Hle | Hlt].
-      + apply Rle_trans with ((t - 0) * M).
-        * apply (abs_RInt_le_const a); [lra | apply I | intros; apply Ht; lra].
-        * apply Rmult_le_compat_r; [apply Rabs_pos | lra].
-      + replace t with (t - T + T) by ring; rewrite S by lra; apply IH; lra. }
+  destruct (continuity_ab_maj (fun x => Rabs (RInt a 0 x)) 0 T) as [top [Ht _]]; [lra | |].
+  { intros x _; apply continuity_pt_filterlim, continuous_comp; [| apply continuous_Rabs].
+    apply (ex_derive_continuous (fun x => RInt a 0 x)); eexists; apply derive_integral, Hc. }
+  exists (Rabs (RInt a 0 top)).
+  assert (N : forall n t, 0 <= t <= INR (Datatypes.S n) * T -> Rabs (RInt a 0 t) <= Rabs (RInt a 0 top)).
+  { induction n as [| n IH]; intros t Hn; [apply Ht; simpl in Hn; lra |].
+    destruct (Rle_lt_dec t T) as [Hle | Hlt]; [apply Ht; lra |]; rewrite S_INR in Hn.
+    replace t with (t - T + T) by ring; rewrite S by lra; apply IH; lra. }
   intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
   { apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat, HT]. }
-  apply (N (Datatypes.S n)); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
+  apply (N n); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
 Qed.
 
 (** [t (u' - r) - c0 - c1 U -> 0] with periodic, continuous U of mean m:

@@ -24,23 +24,17 @@ Proof. unfold diverges; rewrite <- is_lim_spec; simpl; reflexivity. Qed.
 (** ** What holds from some time on *)
 
 Lemma tends_ext f g l : (forall t, 0 <= t -> f t = g t) -> tends f l -> tends g l.
-Proof.
-  intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra.
-Qed.
+Proof. intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra. Qed.
 
 Lemma diverges_ext f g : (forall t, 0 <= t -> f t = g t) -> diverges f -> diverges g.
-Proof.
-  intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra.
-Qed.
+Proof. intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra. Qed.
 
 Lemma tends_value f l l' : l = l' -> tends f l -> tends f l'.
 Proof. intros ->; trivial. Qed.
 
 (** A limit is unique. *)
 Lemma tends_unique f l l' : tends f l -> tends f l' -> l = l'.
-Proof.
-  intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence.
-Qed.
+Proof. intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congruence. Qed.
 
 (** ** Passage to the limit *)
 
@@ -54,7 +48,7 @@ Lemma tends_opp f a : tends f a -> tends (fun t => - f t) (- a).
 Proof. apply (is_lim_opp f p_infty a). Qed.
 
 Lemma tends_minus f g a b : tends f a -> tends g b -> tends (fun t => f t - g t) (a - b).
-Proof. intros Hf Hg; apply (tends_plus f (fun t => - g t)); [| apply tends_opp]; assumption. Qed.
+Proof. apply is_lim_minus'. Qed.
 
 Lemma tends_mult f g a b : tends f a -> tends g b -> tends (fun t => f t * g t) (a * b).
 Proof. intros Hf Hg; apply (is_lim_mult f g p_infty a b); trivial; exact I. Qed.
@@ -68,9 +62,7 @@ Proof. apply is_lim_comp_continuous. Qed.
 
 (** The reciprocal of a limit that is not 0. *)
 Lemma tends_inv f l : l <> 0 -> tends f l -> tends (fun t => / f t) (/ l).
-Proof.
-  intros Hl H; apply (is_lim_inv f p_infty l) in H; [exact H |]; congruence.
-Qed.
+Proof. intros Hl H; apply (is_lim_inv f p_infty l) in H; [exact H |]; congruence. Qed.
 
 (** Limits pass through t -> T + t. *)
 Lemma later f l T : tends f l -> tends (fun t => f (T + t)) l.
@@ -129,19 +121,11 @@ Lemma integrates (y x : R -> R) c :
   (forall t, 0 <= t -> Derive y t = c * Derive x t) ->
   forall t, 0 <= t -> y t = y 0 + c * (x t - x 0).
 Proof.
-  intros Hy' Hx E t Ht.
-  assert (Hy : forall t, 0 <= t -> is_derive y t (c * Derive x t)).
-  { intros s Hs; rewrite <- E by assumption; apply Derive_correct; auto. }
-  set (d := fun t => y t - c * x t).
-  assert (Hd : forall t, 0 <= t -> is_derive d t 0).
-  { intros z Hz; rewrite <- (Rminus_eq_0 (c * Derive x z)).
-    apply (is_derive_minus y (fun t => c * x t)); [auto |].
-    apply is_derive_scal, Derive_correct; auto. }
-  assert (forall s, 0 <= s -> ex_derive d s) by (intros; eexists; apply Hd; assumption).
-  assert (forall s, 0 <= s -> Derive d s = 0) by (intros; apply is_derive_unique, Hd; assumption).
-  destruct Ht as [Ht | <-]; [| lra].
-  destruct (mean_value d 0 t) as [z [Hz M]]; [lra | assumption |].
-  rewrite H0 in M by lra; unfold d in M; lra.
+  intros Hy Hx E t [Ht | <-]; [| lra].
+  destruct (mean_value (fun t => y t - c * x t) 0 t) as [z [Hz M]]; [lra | |].
+  - intros; apply (ex_derive_minus y (fun t => c * x t)); [auto | apply ex_derive_scal; auto].
+  - assert (0 <= z) by lra; rewrite Derive_minus, Derive_scal, E in M; auto; [lra |].
+    apply ex_derive_scal; auto.
 Qed.
 
 (** What lies above a line that rises diverges. *)

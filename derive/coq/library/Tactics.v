@@ -31,15 +31,8 @@ Proof. intros Hb H; apply (Rmult_lt_compat_r b) in H; rewrite ?Rinv_l in H; lra.
 Lemma slope_of_decreasing (f : R -> R) : (forall r r', r < r' -> f r' < f r) ->
   (forall r, ex_derive f r) -> forall r, Derive f r <= 0.
 Proof.
-  intros Hf Hd r; destruct (Rle_lt_dec (Derive f r) 0) as [| L]; [assumption |].
-  assert (D : derivable_pt_lim f r (Derive f r)) by (apply is_derive_Reals, Derive_correct, Hd).
-  destruct (D (Derive f r) L) as [del B]; pose proof (cond_pos del) as P.
-  specialize (B (del / 2)); rewrite Rabs_pos_eq in B by lra.
-  assert (E : Rabs ((f (r + del / 2) - f r) / (del / 2) - Derive f r) < Derive f r) by (apply B; lra).
-  apply Rabs_def2 in E; specialize (Hf r (r + del / 2)).
-  assert (Q : (f (r + del / 2) - f r) / (del / 2) < 0)
-    by (apply Rlt_div_l; [lra | rewrite Rmult_0_l; lra]).
-  lra.
+  intros Hf Hd r; pose (D := fun r => ex_derive_Reals_0 f r (Hd r)); rewrite <- (Derive_Reals f r (D r)).
+  apply (nonpos_derivative_0 f D); intros x y [H | ->]; [left; apply Hf, H | right; reflexivity].
 Qed.
 
 (** A quadratic polynomial of negative discriminant. *)
@@ -141,6 +134,7 @@ Ltac bounds :=
   repeat match goal with
   | H : Rabs _ <= _ |- _ => apply Rabs_le_between in H
   | H : 0 < sqrt _ |- _ => apply sqrt_positive in H
+  | H : 0 < Rabs _ |- _ => rewrite Rabs_pos_eq in H by lra
   | H : _ < / _ |- _ => apply below_inverse in H; [| positive]
   | |- Rabs _ <= _ => apply Rabs_le; split
   | |- context [sin ?a] => lazymatch goal with H : -1 <= sin a <= 1 |- _ => fail
