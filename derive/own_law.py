@@ -258,6 +258,11 @@ def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] 
 
 def _loss(form: sp.Expr, exact: sp.Expr) -> float:
     """Return the largest relative error of a form in floating point."""
+    return _errors(form, exact)[1][-1]
+
+
+def _errors(form: sp.Expr, exact: sp.Expr) -> tuple[list[float], list[float]]:
+    """Return values of h/sigma, and the largest relative error of a form up to each of them."""
     import mpmath
     import numpy as np
     import sympy as sp
@@ -269,23 +274,24 @@ def _loss(form: sp.Expr, exact: sp.Expr) -> float:
     with np.errstate(all="ignore"):
         rounded = sp.lambdify(r, form, "numpy")(at) + 0.0 * at
     if not np.isfinite(rounded).all():
-        return float("inf")
-    worst = 0.0
+        return [low], [float("inf")]
+    worst, found = 0.0, dict[float, float]()
     with mpmath.workdps(DIGITS):
         value = sp.lambdify(r, exact, "mpmath")
         for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True):
             true = value(mpmath.mpf(place))
             if abs(true) < TINIEST:
                 break  # all further values are smaller
-            worst = max(worst, float(abs(approximate / true - 1)))
-    return worst
+            worst = found[place] = max(worst, float(abs(approximate / true - 1)))
+    return list(found), list(found.values())
 
 
 def file_of(text: str, name: str) -> str:
     """Return the text of a file of a law by its name.
 
-    `about.json` has the law, its inflection and its relative rounding error, `law.py` the law and
-    its relative slope; a variant without loss of contact is in a module of its name.
+    `about.json` has the law, its inflection and its relative rounding errors, the largest and those
+    up to values of h/sigma, `law.py` the law and its relative slope; a variant without loss of
+    contact is in a module of its name.
 
     Raises
     ------
@@ -305,7 +311,8 @@ def file_of(text: str, name: str) -> str:
         with suppress(TimeLimitError), time_limit(SECONDS, f"phi = {text}"):
             proved = turns_once(law)
         about = {"phi": text, "inflection": str(law.inflection), "inflection_proved": proved}
-        return json.dumps(about | {"rounding_error": loss})
+        errors = _errors(law.stable.intermediates[0][1], law.phi)
+        return json.dumps(about | {"rounding_error": loss, "rounding_errors": errors})
     if name == "law.py":
         return contact_law.module(law)
     variants = [Variant(law, compliant, pin) for compliant in (False, True) for pin in Pin]

@@ -54,7 +54,8 @@ def named(text: str) -> str:
 
 @cache
 def module(law: str, name: str) -> ModuleType:
-    """Return a generated module of a law by its name, such as "rigid_bearing" or "law".
+    """Return a generated module of a law by its name, such as "rigid_bearing" or "law", with its
+    `rounding_errors`: values of h/sigma, and the relative error of the law up to each.
 
     Raises
     ------
@@ -69,12 +70,13 @@ def module(law: str, name: str) -> ModuleType:
     assert spec.loader is not None
     loaded = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(loaded)
+    vars(loaded)["rounding_errors"] = about(law)["rounding_errors"]
     return loaded
 
 
 def about(law: str) -> dict[str, Any]:
     """Return properties of a law: its `inflection`, whether that is proved to be the only one
-    (`inflection_proved`), and its relative `rounding_error`."""
+    (`inflection_proved`), and its relative `rounding_error` and `rounding_errors`."""
     properties: dict[str, Any] = json.loads(_file(law, "about.json").read_text("utf-8"))
     return properties
 

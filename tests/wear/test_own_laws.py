@@ -17,6 +17,7 @@ from tests.derive.reading_back import CLASSES, read_back
 from tests.programs import python
 from wear import own_laws
 from wear.binding import bind
+from wear.equation import roundoff
 
 ALGEBRAIC = "(1 - (r - 2)/sqrt(2 + (r - 2)^2))/2"  # no other test uses it: derived here
 ROOT = Path(__file__).parents[2]
@@ -200,6 +201,15 @@ def test_lost_digits_and_what_is_not_proved_are_said():
     assert not any("is not proved" in notice for notice in with_law(ALGEBRAIC).notices)
     assert any("loses digits" in notice for notice in scene.notices)
     assert not any("loses digits" in notice for notice in with_law(ALGEBRAIC).notices)
+
+
+def test_lost_digits_are_part_of_the_error():
+    law, none = "(sqrt(1.3 + r^2) - r)^(3/2)", np.zeros(1)
+    scene, u = with_law(law).with_({"bearing.roughness_growth": 0.0}), np.array([0.2])
+    r, model = (scene.closure + u) / scene.initial_roughness, bind(scene)
+    pressure = scene.contact.max_pressure_MPa * (1.3 / (np.sqrt(1.3 + r**2) + r)) ** 1.5
+    assert np.abs(model.fields(u, none).p / pressure - 1) <= roundoff(model, none, u)
+    assert roundoff(model, none, none) < 1e-12
 
 
 def test_code_is_not_run_from_a_cache_that_others_may_write(tmp_path, monkeypatch):
