@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -180,7 +181,7 @@ def _tornado(sensitivities: Sensitivities) -> Figure:
     """Draw the largest elasticities, without those of the rows of a load."""
     keys, elasticity = sensitivities.keys, sensitivities.elasticity
     order = np.argsort(-np.max(np.abs(np.nan_to_num(elasticity)), axis=1))
-    largest = [i for i in order if "values_" not in keys[i]][:_BARS]
+    largest = [i for i in order if not re.search(r"(values_mm|forces_N)\[", keys[i])][:_BARS]
     return figures.tornado([keys[i] for i in largest], elasticity[largest], sensitivities.cycles)
 
 
