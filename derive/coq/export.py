@@ -22,6 +22,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..equations import Equation
+from ..files import write_all
 from . import proofs, refutations
 from .statements import key, world
 from .steps import Record, Row, Step, record, steps
@@ -167,26 +168,23 @@ class Export:
         )
 
     def write(self, folder: Path, files: Mapping[str, str] | None = None) -> None:
-        """Write library, files (default: all of them) and a Makefile for them."""
+        """Write library, files (default: all of them) and a Makefile for them.
+
+        A file that has its text already stays, and is not compiled again.
+        """
         files = self.files if files is None else files
-        folder.mkdir(parents=True, exist_ok=True)
-        for name in THEOREMS:
-            _update(folder / f"{name}.v", (LIBRARY / f"{name}.v").read_text(encoding="utf-8"))
-        for name, text in files.items():
-            _update(folder / f"{name}.v", text)
+        texts = {name: (LIBRARY / f"{name}.v").read_text(encoding="utf-8") for name in THEOREMS}
+        texts = {f"{name}.v": text for name, text in (texts | dict(files)).items()}
         targets = " ".join(f"{name}.vo" for name in files)
-        _update(folder / "Makefile", f"all: {targets}\n{MAKEFILE}")
+        texts["Makefile"] = f"all: {targets}\n{MAKEFILE}"
+        present = {file: folder / file for file in texts if (folder / file).exists()}
+        same = {file for file, path in present.items() if path.read_text("utf-8") == texts[file]}
+        write_all(folder, {file: texts[file] for file in texts if file not in same})
 
 
 def _importing(files: Iterable[str]) -> str:
     """Return the first lines of a file, which import other files."""
     return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
-
-
-def _update(path: Path, text: str) -> None:
-    """Write a file unless it has this text already: an unchanged one is not compiled again."""
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
 
 
 def _file_name(section: str) -> str:
