@@ -17,7 +17,7 @@ from pydantic import Field
 
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics, Waves, derivative
-from wear.load.periodic import Load, Smooth, centred
+from wear.load.periodic import Load, Smooth, cosine_and_sine
 from wear.load.piecewise_linear import ForceTable, HistoryLoad, Table
 from wear.load.spans import Loading
 from wear.numerics.gauss import FloatArray
@@ -55,14 +55,13 @@ class Sine(Smooth):
     mean: ClassVar[float] = 0.0
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
-        return np.asarray(self.amplitude_mm * np.sin(2.0 * math.pi * centred(phase)))
+        return np.asarray(self.amplitude_mm * cosine_and_sine(phase)[1])
 
     def slope(self, phase: FloatArray | float) -> FloatArray:
-        angle = 2.0 * math.pi * centred(phase)
-        return np.asarray(2.0 * math.pi * self.amplitude_mm * np.cos(angle))
+        return np.asarray(2.0 * math.pi * self.amplitude_mm * cosine_and_sine(phase)[0])
 
     def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
-        return {"amplitude_mm": np.sin(2.0 * math.pi * centred(phase))}
+        return {"amplitude_mm": cosine_and_sine(phase)[1]}
 
     def terms(self) -> FloatArray:
         """Return the rows j, cosine_j, sine_j of the harmonics."""

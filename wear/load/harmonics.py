@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from wear.load.periodic import Smooth, centred, within_cycle
+from wear.load.periodic import Smooth, centred, cosine_and_sine, within_cycle
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
 from wear.validation import Numbers, Positive, Real, table
 
 MOST_HARMONICS = 100
 Coefficients = Annotated[tuple[float, ...], Numbers(MOST_HARMONICS)]
-FEW_HARMONICS = 2  # from which the polynomial is faster than the sum
 SLOPE_ROUNDOFF = 8 * ROUNDOFF  # of the slope's terms, each times its order
 
 
@@ -105,24 +104,22 @@ class Waves(NamedTuple):
 
 
 def _trigonometric_sum(terms: FloatArray, phase: FloatArray | float) -> FloatArray:
-    turn = 2.0 * math.pi * centred(phase)
-    total = np.zeros_like(turn)
-    for order, cosine, sine in zip(*terms, strict=True):
-        if cosine.any():
-            total += cosine * np.cos(order * turn)
-        if sine.any():
-            total += sine * np.sin(order * turn)
+    within = centred(phase)
+    total = np.zeros_like(within)
+    for order, *amplitudes in zip(*terms, strict=True):
+        for amplitude, wave in zip(amplitudes, cosine_and_sine(order * within), strict=True):
+            total += amplitude * wave
     return total
 
 
 def _polynomial(terms: FloatArray, phase: FloatArray) -> FloatArray:
     """Return the trigonometric sum to a few roundoffs times the highest order: the real part of a
     polynomial in exp(2 pi i phase), by Horner's rule, which is faster for many harmonics."""
-    if terms.shape[1] < FEW_HARMONICS:
-        return _trigonometric_sum(terms, phase)
-    turn = 2.0 * math.pi * centred(phase)
-    wave = np.empty(turn.shape, dtype=complex)
-    wave.real, wave.imag = np.cos(turn), np.sin(turn)
+    cosine, sine = cosine_and_sine(phase)
+    if terms.shape[1] == 1:
+        return np.asarray(terms[1, 0] * cosine + terms[2, 0] * sine)
+    wave = np.empty(cosine.shape, dtype=complex)
+    wave.real, wave.imag = cosine, sine
     *lower, highest = terms[1] - 1j * terms[2]
     total = highest * wave
     for coefficient in reversed(lower):

@@ -88,7 +88,7 @@ class ContactMode(NamedTuple):
         self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepness: FloatArray
     ) -> FloatArray:
         """Return the rounding error (k,) of the rate at the nodes (m, k), mm per cycle."""
-        largest = np.max(np.abs(rate), axis=0)
+        largest = np.abs(rate).max(axis=0)
         if self.by_law:
             return np.asarray(ROUNDOFF * steepness * largest)
         # Proportional to the margin, and so as inexact.
@@ -259,7 +259,7 @@ def _step(
     tangents: Radau's last node is the end."""
     settled = max(ROUNDOFF, SETTLED * tolerance)
     length = np.where(contact.direction == 0.0, over.whole, over.expected)
-    ends, nodes = np.any(contact.direction != 0.0), rule.nodes[:, None]
+    ends, nodes = (contact.direction != 0.0).any(), rule.nodes[:, None]
     inside = np.zeros((len(nodes), len(u)))
     (last, error), evaluations = np.ones((2, len(u))), 0
     done, diverged = np.full((2, len(u)), False)
@@ -272,16 +272,16 @@ def _step(
         step = np.where(done, 0.0, _newton(rule, length * slope, residual))
         rate, inside = rate + slope * step, inside + step
         added = length * (rule.weights @ rate)
-        correction = np.max(np.abs(step), axis=0) / (np.abs(added) + TINY)
+        correction = np.abs(step).max(axis=0) / (np.abs(added) + TINY)
         noise = contact.noise(u + inside, U_a, rate, steepness)
-        stiffness = length * np.max(np.abs(slope), axis=0)
+        stiffness = length * np.abs(slope).max(axis=0)
         allowed = NOISE / ROUNDOFF * noise * length / np.maximum(1.0, stiffness)
         allowed /= np.abs(added) + TINY
         if ends:
             change, uncertainty = contact.to_its_end(
                 u + added, U_a[-1], over.begin + length, rate[-1]
             )
-            change = np.clip(length + change, LEAST * length, over.whole) - length
+            change = np.minimum(np.maximum(length + change, LEAST * length), over.whole) - length
             change = np.where(done, 0.0, change)
             correction = np.maximum(correction, np.abs(change) / length)
             inside = inside + rate * nodes * change
@@ -294,7 +294,7 @@ def _step(
         error = np.where(done, error, predicted)
         done |= (error <= settled) | (correction <= allowed)
         done |= (last < STALLED) & (correction >= last)
-        if np.all(done | diverged):
+        if (done | diverged).all():
             break
         last = correction
         if ends:
@@ -309,8 +309,8 @@ def _newton(rule: Gauss, slope: FloatArray, residual: FloatArray) -> FloatArray:
     E = exp(integral of slope), but for a truncation error that the next iteration removes.
     """
     decay = rule.integrate @ slope
-    stiff = ~(np.max(np.abs(decay), axis=0) < STIFF)
-    factor = np.exp(np.where(stiff, 0.0, decay))
+    stiff = ~(np.abs(decay).max(axis=0) < STIFF)
+    factor = np.exp(np.where(stiff, 0.0, decay) if stiff.any() else decay)
     x = residual + factor * (rule.integrate @ (slope * residual / factor))
     if stiff.any():
         matrix = np.eye(len(rule.nodes)) - rule.integrate * slope.T[stiff][:, None, :]

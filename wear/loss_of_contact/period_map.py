@@ -43,7 +43,7 @@ TOUCH = 16.0  # roundoffs of the margin by which contact is told
 SOON = 1e-6  # of a piece: after that the load goes where it goes
 FROZEN_NODES = 10  # on a piece, where the rate does not feel the wear
 FROZEN_PHASE = 1e-5  # of a cycle: where contact begins and ends there
-AT_ONCE = 10_000  # numbers of an array that stays in the processor's cache, with some others
+AT_ONCE = 20_000  # numbers of an array that stays in the processor's cache, with some others
 
 
 class CycleResult(NamedTuple):

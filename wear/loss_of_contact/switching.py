@@ -188,7 +188,7 @@ def phase_of(
     for iteration in range(PHASE_NEWTON):
         slope = load.slope(phase)
         step = (height - load(phase)) / np.where(slope == 0.0, np.inf, slope)
-        corrected = np.clip(phase + step, low, high)
+        corrected = np.minimum(np.maximum(phase + step, low), high)
         change, phase = np.abs(corrected - phase), np.where(done, phase, corrected)
         done |= (change <= tolerance) | ((iteration > PHASE_PATIENCE) & (change >= last))
         if done.all():
