@@ -131,7 +131,8 @@ def _solvable(relation: sp.Equality) -> sp.Expr | None:
     own = {part: sp.Dummy(real=True) for part in parts}
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
-    if any(slope.has(*own.values()) for slope in slopes.values()):
+    bent = any(slope.has(*own.values()) for slope in slopes.values())
+    if bent or not smooth(flat, *own.values()):
         return None
     rests = not any(part.is_positive for part in own)
     if rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0:

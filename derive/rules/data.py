@@ -7,7 +7,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Set
 from dataclasses import dataclass
 
 import sympy as sp
@@ -18,6 +18,7 @@ from ..hypotheses import LOAD, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import defined_by, names
 from ..laws import r
+from ..note.model import subject
 from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero
@@ -35,6 +36,7 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
     definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
+    modelled = {subject(h.relation) for h in hypotheses if h.kind is Kind.MODEL}
     if len({r for r in (h.relation for h in hypotheses) if _is_pressure_law(r)}) > 1:
         raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
     for hypothesis in hypotheses:
@@ -42,7 +44,7 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
         if kind in (Kind.DEFINITION, Kind.INITIAL, Kind.MODEL) and relation.atoms(AppliedUndef):
             continue
         if functions(relation):
-            fixed = not _leaves_data_free(relation)
+            fixed = not _leaves_data_free(relation) or subject(relation) in modelled
         else:
             about = parameter.name in _data_of(relation, definitions)
             fixed = about and kind is not Kind.DEFINITION and not open_set(relation)
@@ -50,19 +52,21 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
 
-def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> set[str]:
-    """Return the data in a relation, directly or by defined names."""
+def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
+    """Return the data in a relation, directly or by defined names: all, if a name is of fields."""
     about = {name for name, _ in names(relation)}
     for _ in definitions:
         defining = (names(known) for known in definitions if about & defined_by(known))
         about = about.union(name for group in defining for name, _ in group)
-    return about & DATA
+    of_fields = any(functions(known) for known in definitions if about & defined_by(known))
+    return DATA if of_fields else about & DATA
 
 
 def _leaves_data_free(relation: sp.Basic) -> bool:
     """Return whether fields that satisfy a relation exist for all data.
 
-    So it is for a contact law, a bound of the load, and a setting.
+    So it is for a contact law, a bound of the load, and a setting, if it is all that determines
+    its field.
     """
     if isinstance(relation, sp.LessThan):
         positive = holds(sp.Gt(relation.rhs, 0)) and not [*undefined(relation.rhs)]

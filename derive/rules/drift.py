@@ -98,9 +98,9 @@ class LogarithmicDrift(Rule):
         periodic = -flat.subs(t, 0)
         speed = sp.expand(now - sp.diff(flat, t))
         rest = sp.expand(flat - t * (now - speed) + periodic)
-        linear = constant(sp.Tuple(periodic, sp.diff(periodic, load))) and not sp.diff(
-            periodic, load, 2
-        )
+        slope = sp.diff(periodic, load)
+        straight = smooth(periodic, load) and sp.diff(slope, load) == 0
+        linear = straight and constant(sp.Tuple(periodic, slope))
         if approach.value != 0 or rest != 0 or speed.has(now) or not constant(speed) or not linear:
             raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
         drift = (u - speed * t) / sp.log(t / T)
@@ -148,7 +148,7 @@ class LogarithmicGrowth(Rule):
 class LeadingTerm(Rule):
     """``c N = F(s)`` gives ``ln N = K(s) + o(1)`` as s -> 0+: ``e^K -> oo``, ``N'/(e^K)' -> 1``.
 
-    F may have an integral up to s, whose derivative is its integrand; c is constant.
+    F may have an integral up to s, whose derivative is its integrand; c is constant, not 0.
     """
 
     claim: sp.Equality
@@ -162,7 +162,7 @@ class LeadingTerm(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, (left, leading) = equality(premises[0]), self.claim.args
         s = next(iter(fields(given.rhs)), t)
-        pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else left
+        pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else t
         require_defined(leading, *premises)
         small, facts = sp.Dummy("s", positive=True), facts_of(premises)
         fallen = (x for x in given.relation.free_symbols - {t} if holds(sp.Lt(x, 0), facts))
@@ -172,6 +172,7 @@ class LeadingTerm(Rule):
         moving = cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
         if moving or not constant(sp.Tuple(pace, claimed, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
+        require(sp.Ne(pace, 0), *premises)
         require(sp.Ge(s, 0), *premises)
         if _end(claimed, small) != sp.oo:
             raise RuleError(f"missing premise: {leading} grows without bound")

@@ -160,7 +160,8 @@ def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
     """Return the relations where pieces of an integrand are continuous."""
     if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
         now = body.func(t)
-        return [] if now in WEARING else [Continuous(now), *integrable(body.args[0], s)]
+        goals = [] if now in WEARING else [Continuous(now)]
+        return [*goals, *integrable(body.args[0], s)]
     if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
         return [sp.Ne(body, sp.zoo, evaluate=False)]
     return [goal for part in body.args for goal in integrable(part, s)]

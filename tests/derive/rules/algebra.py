@@ -343,6 +343,8 @@ FAMILIES = (
         # U_a jumps from 0 to 2 L
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
+        "the mean wear at the times of a field": ("is continuous", b_0,
+            sp.Integral(u_c.subs(t, sigma), (t, 0, T))),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (
@@ -350,6 +352,8 @@ FAMILIES = (
     ), {
         # a square load
         "what has the rate of the load": ("a new name", equal(rate("G"), rate("U_a"))),
+        "what is -1 where it is positive, else 1": ("a new name",
+            equal(G + sp.Piecewise((1, sp.Gt(G, 0)), (-1, True)), 0)),
         "what has a rate that jumps": ("a new name", equal(rate("G"), U_a / T)),
     }),
 )  # fmt: skip

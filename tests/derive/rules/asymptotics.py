@@ -141,6 +141,9 @@ FAMILIES = (
         "a drift from a speed that grows": ("N fixed", t * (du - C * N) - U_a),
         "a faster approach": ("linear in the load", t**2 * (du - C) - U_a),
         "the square of the load": ("linear in the load", t * (du - C) - U_a**2 / U),
+        # a sine load: its mean is U/pi
+        "a ramp of the load": ("linear in the load",
+            t * (du - C) - sp.Piecewise((U_a, sp.Gt(U_a, 0)), (0, True))),
         "another field than the load": ("linear in the load", t * (du - C) - u_a),
     }),
     Family(each, (), {
@@ -157,6 +160,8 @@ FAMILIES = (
     }),
     Family(last, ((),), {
         "not the logarithm": ("is about", FEW, N),
+        # q ln(h_star/sigma_c) -> oo
+        "a constant for the logarithm": ("is about", FEW, q),
         "a field beside it": ("is about", FEW + G**2),
         # G = h_star/sigma_c + 1: N = theta - 1
         "a field in the equation": ("is about", FEW, LOG_N, FALLS, G),
@@ -191,6 +196,10 @@ FAMILIES = (
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
     Family(each, (first_order_terms,), {
+        # f_c = 0, G = 1
+        "a multiple that may be zero": (r"Ne\(f_c, 0\)",
+            lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))(
+                eq(f_c * G, f_c * q / sigma_c))),
         # h = -1/10: half as many
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(

@@ -54,6 +54,7 @@ h_0, f_c, C, T, N, q, k, b, b_0, M, L = symbols("h_0 f_c C T N q k b b_0 M L")
 sigma_c0, u_cum, theta, x_inf, tau, omega = symbols("sigma_c0 u_cum theta x_inf tau omega")
 U, U_max, p_max, R_a, epsilon, sigma = symbols("U U_max p_max R_a epsilon sigma")
 K_a, K_c, H_a, H_c, sigma_a0 = symbols("K_a K_c H_a H_c sigma_a0")
+sigma_a, f_ac = symbols("sigma_a f_ac")
 y = sp.Symbol("y", real=True)
 v, w = (sp.Function(name, real=True)(tau) for name in "vw")
 WIGGLE, WOBBLE = (sp.Function(name, real=True)(t) for name in ("wiggle", "wobble"))
@@ -127,6 +128,21 @@ def of_one_wear():
     return Insert(equal(u_cum, h_0 * K_c))(defined(u_cum, h_0 * K_a * H_c / H_a), value)
 
 
+def by_a_name():
+    """Return u_cum = f_c h_0, as the first roughness is h_0."""
+    named = defined(b_0, initial("sigma_c") - h_0), eq(b_0, 0), said(STARTS[4], Kind.INITIAL)
+    value = Arithmetic(equal(sigma_c0, h_0))(*named)
+    return Insert(equal(u_cum, f_c * h_0))(defined(u_cum, f_c * sigma_c0), value)
+
+
+def uncoupled():
+    """Return u_cum = f_c h_0, as a pin that is smooth and unworn has f_ac = 0."""
+    settings = differentiate(eq(sigma_a, 0)), differentiate(eq(u_a, 0))
+    rates = said(ARCHARD[1], Kind.MODEL), said(ARCHARD[2], Kind.MODEL)
+    value = Arithmetic(equal(f_ac, 0))(*settings, *rates, eq(p, p_max * sp.exp(-h / sigma)))
+    return Insert(equal(u_cum, f_c * h_0))(defined(u_cum, (f_c + f_ac) * h_0), value)
+
+
 TIE = sp.sqrt(2 * f_c * L * h_0 - h_0**2 - f_c**2 * L**2)
 
 
@@ -134,7 +150,7 @@ def alike(left, right):
     return sp.Equivalent(left, right, evaluate=False)
 
 
-IN_START = sp.Derivative(u_cum, sigma_a0)
+IN_START, IN_SIGMA, IN_F_AC = (sp.Derivative(u_cum, x) for x in (sigma_a0, sigma_c0, f_ac))
 FACTORS = defined(theta, f_c), defined(b_0, h_0 / L)
 FIELDS = tuple(
     said(equal(field, value), Kind.DEFINITION)
@@ -240,6 +256,9 @@ FAMILIES = (
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
         "two starts that are equal": ("may vary", equal(IN_START, 0), of_one_start(), sigma_a0),
+        "a start that equals a datum by a name": ("may vary", equal(IN_SIGMA, 0), by_a_name(), sigma_c0),
+        # f_ac = 0, the slope is h_0
+        "two settings of a pin that roughens": ("may vary", equal(IN_F_AC, 0), uncoupled(), f_ac),
         # the slope is h_0 H_c/H_a
         "two wears that are equal": ("may vary", equal(sp.Derivative(u_cum, K_a), 0),
             of_one_wear(), K_a),
