@@ -66,7 +66,7 @@ dU = rate("U_a")
 x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
-SIDES = eq(h, u_a)
+SIDES, WORN_AT = eq(h, u_a), u_c.subs(t, sigma)
 FALLING = lt(f_c, 0)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
@@ -184,6 +184,8 @@ FAMILIES = (
         equal(sp.besseli(0, y) + 0, sp.besseli(0, y)),
         (sp.Eq((f_c**2 - 1) / (f_c - 1), f_c + 1), ne(f_c, 1)),  # f_c = 1
     ), {
+        "the mean wear at the times of a field": ("is continuous",
+            equal(sp.Integral(2 * WORN_AT, (t, 0, T)), 2 * sp.Integral(WORN_AT, (t, 0, T)))),
         "|f_c| = f_c": ("no identity", sp.Eq(sp.Abs(f_c), f_c)),
         "log(x^2) = 2 log(x)": ("x_inf.* > 0", sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf))),
         "W(x e^x) = x": (">= 0", sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
@@ -343,8 +345,6 @@ FAMILIES = (
         # U_a jumps from 0 to 2 L
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
-        "the mean wear at the times of a field": ("is continuous", b_0,
-            sp.Integral(u_c.subs(t, sigma), (t, 0, T))),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (

@@ -256,7 +256,8 @@ FAMILIES = (
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
         "two starts that are equal": ("may vary", equal(IN_START, 0), of_one_start(), sigma_a0),
-        "a start that equals a datum by a name": ("may vary", equal(IN_SIGMA, 0), by_a_name(), sigma_c0),
+        "a start that equals a datum by a name": ("may vary", equal(IN_SIGMA, 0),
+            by_a_name(), sigma_c0),
         # f_ac = 0, the slope is h_0
         "two settings of a pin that roughens": ("may vary", equal(IN_F_AC, 0), uncoupled(), f_ac),
         # the slope is h_0 H_c/H_a
