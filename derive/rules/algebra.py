@@ -21,8 +21,8 @@ from ..language import bound_in
 from ..reals import holds
 from ..symbols import t
 from ..zero import is_zero
-from .proving import require, require_defined, smooth
-from .reading import constant, equality, replaced
+from .proving import everywhere, require, require_defined, smooth
+from .reading import constant, equality, functions, replaced
 
 
 @dataclass(frozen=True)
@@ -235,6 +235,8 @@ class Discharge(Rule):
         if any(self.hypothesis in premise.hypotheses for premise in known):
             raise RuleError(f"missing premise: {self.hypothesis.text}, from others")
         require(self.hypothesis.relation, *known)
+        if functions(self.hypothesis.relation) and not all(map(everywhere, known)):
+            raise RuleError(f"missing premise: {self.hypothesis.text}, at every time")
         return Conclusion(first.claim, discharges=(self.hypothesis,))
 
 

@@ -16,7 +16,7 @@ from ..symbols import DATA, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
-from .proving import facts_of, in_words, is_contact_law, smooth, undefined
+from .proving import everywhere, facts_of, in_words, is_contact_law, smooth, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -103,7 +103,7 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
         raise RuleError(f"missing premise: {name} is a new name")
     if now != _MEANT.get(name, now):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
-    expr = inserted(now, premises)
+    expr = inserted(now, tuple(filter(everywhere, premises)))
     rates = {field: sp.Derivative(field, t) for field in fields(expr)}
     change = inserted(sp.Add(*(sp.diff(expr, f) * rate for f, rate in rates.items())), premises)
     varies = clocks(expr) or any(d.has(t) for d in expr.atoms(sp.Derivative))

@@ -120,7 +120,7 @@ class Unbounded(Rule):
         law, *facts = premises
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
-        always = (f for f in facts if all(constant(h.relation) for h in f.hypotheses))
+        always = [f for f in facts if all(constant(h.relation) for h in f.hypotheses)]
         anywhere = [fact for fact in facts_of(always) if fields(fact) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)
         return Conclusion(in_time(u, sp.oo))

@@ -29,7 +29,7 @@ from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
 from ..symbols import symbols, t
-from .reading import constant
+from .reading import constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
@@ -45,16 +45,44 @@ _CONTINUOUS = (
 )
 
 
-def facts_of(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+def facts_of(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     """Return the facts in premises: claims, hypotheses, and that all parts of claims are
     defined."""
-    found: set[sp.Basic] = set()
-    for premise in premises:
-        if not isinstance(premise.claim, Asymptotic):
-            found.add(premise.relation)
-        found |= {need for part in _parts((premise,)) for need in implied_by(part)}
-        found |= {h.relation for h in premise.hypotheses}
-    return frozenset(found | set(map(Continuous, _continuous_fields(found))))
+    return _said(premises) | _lasting(premises) | _supposed(premises)
+
+
+def _said(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+    claims = (p.relation for p in premises if not isinstance(p.claim, Asymptotic))
+    return frozenset(claims).union(*map(implied_by, _parts(premises)))
+
+
+def _supposed(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+    return frozenset(h.relation for premise in premises for h in premise.hypotheses)
+
+
+def _lasting(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+    """Return the facts at every time, and which fields are continuous by them."""
+    found = {relation for relation in _supposed(premises) if not _tied(relation)}
+    found |= _said([*filter(everywhere, premises)])
+    return frozenset(found.union(map(Continuous, _continuous_fields(found))))
+
+
+def everywhere(judgement: Judgement) -> bool:
+    """Return whether a claim holds at every time, not only where rates have a value.
+
+    So it does if no hypothesis ties fields to rates, and as an equality of continuous fields.
+    """
+    claim = judgement.relation
+    if not functions(claim) or not any(map(_tied, _supposed([judgement]))):
+        return True
+    closed = isinstance(claim, (sp.Equality, sp.GreaterThan, sp.LessThan))
+    return closed and all(_unbroken(side, ()) for side in claim.args)
+
+
+def _tied(relation: sp.Basic) -> bool:
+    """Return whether a relation is of fields and of rates."""
+    rates = {d: sp.Dummy() for d in relation.atoms(sp.Derivative) if functions(d)}
+    return bool(rates) and bool(functions(relation.xreplace(rates)))
 
 
 def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
@@ -116,7 +144,7 @@ def undefined(
     """
     ends = {part for whole in near for part in certain(whole)}
     facts = facts_of(premises).union(*map(implied_by, ends))
-    needed = _needed(expr, _parts(premises) | ends, facts)
+    needed = _needed(expr, _parts(premises) | ends, _lasting(premises))
     return (goal for goal in needed if not holds(goal, facts))
 
 

@@ -22,7 +22,7 @@ from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import continuous, facts_of, require, require_defined, smooth
+from .proving import continuous, everywhere, facts_of, require, require_defined, smooth
 from .reading import (
     constant,
     equality,
@@ -52,7 +52,8 @@ class Follows(Rule):
         still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
         known = given.lhs == PRESSURE and constant(still) and smooth(value, p)
         increases = known and sign(1 - sp.diff(value, p), facts) == 1
-        if not increases or not continuous(value, moving, *premises):
+        lasts = increases and everywhere(premises[0])
+        if not lasts or not continuous(value, moving, *premises):
             raise RuleError(f"missing premise: {PRESSURE} is the only root of an equation")
         for field in fields(value) - {*WEARING}:
             if Continuous(field) not in facts:

@@ -88,6 +88,8 @@ SPEED = rate("u_c")
 RATE = eq(SPEED, C)
 CONSTANTLY = assume(CONSTANT)
 CYCLING = defined(t, T * tau)
+ALMOST = Arithmetic(equal(G, u_c))(eq(G, u_c + T * (SPEED - C)), RATE)
+"""For almost every time: wherever the wear has a rate."""
 SLOPE = sp.Derivative(u_cum, f_c, evaluate=False)
 GROWING = defined(u_cum, h_0 * f_c)
 GAP = (h_0**2 - L**2) / (h_0 - L) - h_0 - L

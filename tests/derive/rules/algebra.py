@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from derive.claims import FirstZero
+from derive.claims import Continuous, FirstZero
 from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
 from derive.laws import EXPONENTIAL, TANH
 from derive.note.model import ARCHARD, CLOSURE, contact
@@ -28,6 +28,7 @@ from derive.rules.limits import forever, later, one_period_later
 from derive.rules.solutions import FirstRoot
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
+    ALMOST,
     APART,
     CONSTANTLY,
     CYCLING,
@@ -66,6 +67,7 @@ dU = rate("U_a")
 x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
+WEARS = eq(G, u_c)
 SIDES, WORN_AT = eq(h, u_a), u_c.subs(t, sigma)
 FALLING = lt(f_c, 0)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
@@ -225,6 +227,9 @@ FAMILIES = (
         "a hypothesis met by itself": ("from others", ROUGHENS, ROUGHENS, ROUGHENS),
         # f_c = 1/2, u_a = 1, h = 1/2
         "a special case for every f_c": (r"Eq\(f_c, 1\)", SPECIAL, AT_ONE, ROUGHENS),
+        # G(0) = L
+        "an equality wherever wear has a rate": ("at every time", Arithmetic(Continuous(G))(WEARS),
+            WEARS, ALMOST),
         "what is no hypothesis of it": ("does not rest on", SPECIAL, START, START),
         # sin t
         "a load that is constant under no condition": ("missing premise", differentiate(CONSTANTLY),
@@ -345,6 +350,7 @@ FAMILIES = (
         # U_a jumps from 0 to 2 L
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
+        "what is constant wherever wear has a rate": ("is constant", b_0, G, ALMOST, eq(u_c, h_0)),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (

@@ -30,6 +30,7 @@ from derive.rules.inequalities import (
 from derive.rules.limits import later, one_period_later
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
+    ALMOST,
     BOUNDED,
     CYCLING,
     GROWING,
@@ -187,6 +188,8 @@ FAMILIES = (
         (eq(h, h_0 - U_a), SMOOTH),
     ), {
         "the rate of the number of cycles": ("differentiable", eq(u_c, h_0 * N)),  # u_c = h_0 t/T
+        # G = u_c + h_0 at t = 0 alone
+        "the rate of what is so wherever wear has a rate": ("Derivative", ALMOST),
         "the rate of v(tau)": ("differentiable", eq(u_c, h_0 * v)),
         "the rate of an inequality": ("no equality", ge(h, 2 * u_c)),
     }),

@@ -8,6 +8,7 @@ from derive.claims import FirstZero
 from derive.hypotheses import CONTINUOUS
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
+from derive.rules.inequalities import Arithmetic
 from derive.rules.solutions import ByParts, FirstRoot, Lambert, Separate, follows
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.judgements import (
@@ -131,6 +132,9 @@ FAMILIES = (
     Family(follows, (
         (eq(p, p_max * (U_a - u_c) / h_0), CONSTANTLY), (eq(p, q * U_a), assume(CONTINUOUS)),
     ), {
+        # p = p_max at t = 0 alone
+        "the pressure wherever wear has a rate": ("the only root", Arithmetic(equal(p, q * u_c))(
+            eq(p, q * u_c + h_0 * (du - C)), RATE)),
         "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
