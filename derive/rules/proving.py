@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, Continuous, Limit
+from ..claims import Asymptotic, Continuous, Limit, Property
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
 from ..language import bound, certain, implied_by, needs
@@ -73,7 +73,8 @@ def everywhere(judgement: Judgement) -> bool:
     So it does if no hypothesis ties fields to rates, and as an equality of continuous fields.
     """
     claim = judgement.relation
-    if not functions(claim) or not any(map(_tied, _supposed([judgement]))):
+    lasts = isinstance(judgement.claim, Property) or not functions(claim)
+    if lasts or not any(map(_tied, _supposed([judgement]))):
         return True
     closed = isinstance(claim, (sp.Equality, sp.GreaterThan, sp.LessThan))
     return closed and all(_unbroken(side, ()) for side in claim.args)

@@ -25,7 +25,7 @@ from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever, later, one_period_later
-from derive.rules.solutions import FirstRoot
+from derive.rules.solutions import FirstRoot, follows
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     ALMOST,
@@ -67,7 +67,7 @@ dU = rate("U_a")
 x, y = sp.symbols("x y", real=True)
 v = sp.Function("v", real=True)(tau)
 
-WEARS = eq(G, u_c)
+WEARS, STEADY = eq(G, u_c), given(Continuous(p))
 SIDES, WORN_AT = eq(h, u_a), u_c.subs(t, sigma)
 FALLING = lt(f_c, 0)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
@@ -222,6 +222,7 @@ FAMILIES = (
     Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
         (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),
         (SPECIAL, AT_ONE, EXACTLY_ONE), (drifting(), assume(CONTINUOUS), assume(DIFFERENTIABLE)),
+        (STEADY, STEADY, follows(eq(p, q * u_c), eq(rate("u_c"), C * p / h_0))),
     ), {
         "a hypothesis that is not met": ("f_c > 0", SOLVED, ROUGHENS, START),
         "a hypothesis met by itself": ("from others", ROUGHENS, ROUGHENS, ROUGHENS),
