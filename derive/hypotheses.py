@@ -9,7 +9,7 @@ Key results
     Hypothesis    a relation and its kind, in words, as plain text and in LaTeX
     sentences     hypotheses in sentences for readers
     SMOOTH_PIN, ..., CONTINUOUS      the settings that have a name
-    ROUGH_BEARING, ..., OPEN_GAP     other conditions that have words
+    ROUGHENING, ..., OPEN_GAP     other conditions that have words
 """
 
 from __future__ import annotations
@@ -149,7 +149,6 @@ DIFFERENTIABLE = Hypothesis(sp.Eq(rate("U_a"), rate("U_a"), evaluate=False))
 CONTINUOUS = Hypothesis(Continuous(U_a))
 SINE = Hypothesis(sp.Eq(U_a, U * sp.sin(2 * sp.pi * t / T)))
 
-ROUGH_BEARING = Hypothesis(sp.Gt(sigma_c, 0))
 ROUGHENING, KEPT, SMOOTHING, NOT_SMOOTHING, SLOPED = (
     Hypothesis(relation(f_c, 0)) for relation in (sp.Gt, sp.Eq, sp.Lt, sp.Ge, sp.Ne)
 )
@@ -174,7 +173,6 @@ _OTHERS = MappingProxyType(
     {
         **model.WORDS,
         **dict.fromkeys(model.START, "initial condition, Eq. (6)"),
-        ROUGH_BEARING.relation: "the bearing is rough",
         ROUGHENING.relation: "the bearing roughens as it wears",
         KEPT.relation: "wear does not change the roughness",
         SMOOTHING.relation: "the bearing smoothens as it wears",

@@ -11,7 +11,7 @@ from functools import cache
 
 import sympy as sp
 
-from ..claims import Asymptotic, Claim, Predicate, Property
+from ..claims import Asymptotic, Claim, Predicate, Property, SlowEquation
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import symbol, t
@@ -22,7 +22,9 @@ _CYCLES = symbol("N")
 
 
 def try_on_models(judgement: Judgement) -> TrialResult:
-    """Return the result of trying a judgement on models."""
+    """Return the result of trying a judgement on models; none is known of an averaged expansion."""
+    if any(isinstance(hypothesis.relation, SlowEquation) for hypothesis in judgement.hypotheses):
+        return TrialResult(None, models=0, decided=0, doubtful=1)
     return _result(_relations(judgement), _decidable(judgement.claim))
 
 

@@ -17,7 +17,6 @@ import sympy as sp
 
 from .. import catalogue
 from ..equations import Status
-from ..hypotheses import ROUGH_BEARING
 from ..kernel import domain
 from ..laws import TANH, r
 from ..reals import sign
@@ -43,8 +42,8 @@ def _holds(*ids: str) -> tuple[bool, str, bool]:
     verdicts = verify(ids)
     good = all(v.passed and v.status in (Status.DERIVED, Status.DEFINITION) for v in verdicts)
     count = sum(len(v.checks) for v in verdicts)
-    known = {ROUGH_BEARING.relation, domain(u_cum)}
-    stated = [c for i in ids for c in catalogue.equation(i).conditions if c.relation not in known]
+    every = [c for i in ids for c in catalogue.equation(i).conditions]
+    stated = [c for c in every if c.relation != domain(u_cum)]
     settings = dict.fromkeys(c.text for c in stated if c.is_setting)
     conditions = dict.fromkeys(c.brief for c in stated if not c.is_setting)
     shown = ", ".join(f"({i}) {v.status}" for i, v in zip(ids, verdicts, strict=True))

@@ -21,10 +21,9 @@ from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 from ..equations import Proved
-from ..hypotheses import ROUGH_BEARING
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..rules.algebra import Solve, discharge, substitute
+from ..rules.algebra import Solve, substitute
 from ..rules.calculus import rigid
 from ..symbols import symbols
 from .governing import NoteModel, Pin
@@ -102,11 +101,10 @@ def two_solids(law: ContactLaw = TANH, opening: bool = False) -> CondensedProble
 def results(two: CondensedProblem) -> dict[str, Proved]:
     """Return equations (8) to (10) and (13) of two worn, rough solids."""
     one, start = replace(two, pin=Pin.ABSENT), two.start[1]  # one worn solid; u_c(0) = 0
-    rough = one.roughness, one.roughness_of_pin  # sigma = sigma_c, which so is positive
     return {
         "8": (two.implicit, two.wear_of_pin, start),
         "9": (two.scalar, start),
         "10": (two.rigid, start),
-        "13": (discharge(one.rigid_condensed, ROUGH_BEARING, *rough), start),
+        "13": (one.rigid_condensed, start),
         "bearing-rate": one.rigid,
     }

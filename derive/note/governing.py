@@ -24,12 +24,13 @@ from functools import cached_property
 import sympy as sp
 
 from ..equations import Proved
-from ..hypotheses import ROUGH_BEARING, SMOOTH_PIN, UNCOUPLED, UNWORN_PIN, Hypothesis, Kind
+from ..hypotheses import SMOOTH_PIN, UNCOUPLED, UNWORN_PIN, Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..rules.algebra import Insert, Solve, restrict, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import SPRINGS, differentiate, integrate
+from ..rules.inequalities import Arithmetic
 from ..symbols import symbols
 from . import model
 
@@ -172,12 +173,17 @@ class NoteModel:
         return integrate(self.wear_laws[3], self.start[4], self.start[1])
 
     @cached_property
+    def rough(self) -> Judgement:
+        """The bearing is rough, as the equivalent roughness is positive and the pin smooth."""
+        facts = self.roughness, self.roughness_of_pin
+        return Arithmetic(sp.Gt(sigma_c, 0))(*facts, name="the bearing is rough")
+
+    @cached_property
     def roughness_at_wear(self) -> Judgement:
         """The equivalent roughness in terms of the wear of both solids."""
         combined = substitute(self.roughness, self.roughness_of_pin)
         if not self.pin.rough:
-            rough = assume(ROUGH_BEARING)
-            combined = restrict(combined, rough, remark="a smooth pin leaves no square root")
+            combined = restrict(combined, self.rough, remark="a smooth pin leaves no square root")
         return substitute(combined, self.roughness_of_bearing)
 
     @cached_property

@@ -36,12 +36,11 @@ from ..hypotheses import (
     DIFFERENTIABLE,
     PERIODIC,
     RIGID,
-    ROUGH_BEARING,
     Hypothesis,
 )
 from ..laws import TANH
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Identity, Insert, Solve, discharge, substitute
+from ..rules.algebra import Consequence, Identity, Insert, Solve, substitute
 from ..rules.assumption import assume, define, defined
 from ..rules.calculus import differentiate
 from ..rules.growth import intermittent
@@ -117,7 +116,7 @@ _inside = sp.Piecewise((1, sp.Ge(3 * sigma_c0 - h_0 + U_a, 0)), (0, True))
 _part = sp.Integral(_inside, (t, 0, T)) / T
 _law = substitute(model.wear_laws[2], substitute(model.pressure_with_cutoff, *geometry), third)
 _limit = intermittent(
-    discharge(_law, ROUGH_BEARING, model.roughness_of_bearing, worn(model), third),
+    _law,
     defined(d, _part),
     worn(model),
     *map(assume, (PERIODIC, BOUNDED_LOAD)),

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..hypotheses import ROUGH_BEARING, Hypothesis
+from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
@@ -44,7 +44,7 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
     ``apart``: whether to suppose h > 0; by default only for data that need it.
     """
     problem = bearing_only(law)
-    facts = [problem.roughness_of_bearing, assume(ROUGH_BEARING)]
+    facts = [problem.roughness_of_bearing, problem.rough]
     if datum in WHILE_APART if apart is None else apart:
         facts += [assume(APART), worn(problem)]
     return OneSign(datum)(problem.rigid, *facts, name=f"effect of {datum}")

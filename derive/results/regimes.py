@@ -19,10 +19,10 @@ import sympy as sp
 
 from ..claims import landau_o
 from ..equations import stated
-from ..hypotheses import CONSTANT, KEPT, ROUGH_BEARING, SINE, SMOOTHING, Hypothesis
+from ..hypotheses import CONSTANT, KEPT, SINE, SMOOTHING, Hypothesis
 from ..laws import TANH
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Solve, discharge, substitute
+from ..rules.algebra import Consequence, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import LeadingTerm, LogarithmicGrowth
 from ..rules.growth import AtInfinity, unbounded
@@ -42,7 +42,7 @@ OVERLAP = Hypothesis(sp.Ge(U_a, h_0 - sigma_c0 / f_c))
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
 
-grown, rough = bearing_only().roughness_of_bearing, assume(ROUGH_BEARING)
+grown, rough = bearing_only().roughness_of_bearing, bearing_only().rough
 """The roughness of the bearing, and the premise that it does not vanish."""
 
 largest_wear = defined(M, K_c * V * T * p_max / (3 * H_c))
@@ -56,7 +56,7 @@ tail = Consequence(sp.Lt(rate("u_c"), _tail))(
 
 # f_c = 0: the integral of the tail is a logarithm
 _kept, _sine = assume(KEPT), assume(SINE)
-kept = discharge(substitute(law, _kept), ROUGH_BEARING, grown, _kept)
+kept = substitute(law, _kept)
 """The rate of a bearing that keeps its roughness."""
 
 _scale = sigma_c0 / 4

@@ -26,12 +26,12 @@ from typing import ClassVar
 
 import sympy as sp
 
-from ..hypotheses import BOUNDED_LOAD, PERIODIC, ROUGH_BEARING, ROUGHENING
+from ..hypotheses import BOUNDED_LOAD, PERIODIC, ROUGHENING
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
 from ..note.condensed import CondensedProblem, bearing_only
 from ..note.governing import NoteModel
-from ..rules.algebra import Consequence, Identity, Insert, discharge
+from ..rules.algebra import Consequence, Identity, Insert
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
 from ..rules.drift import MEAN, logarithmic_drift
@@ -79,20 +79,15 @@ class SteadyState:
         """The hypothesis f_c > 0."""
         return assume(ROUGHENING)
 
-    def rough(self, judgement: Judgement) -> Judgement:
-        """Return a judgement without the hypothesis that the bearing is rough, which follows."""
-        grown = self.model.roughness_of_bearing
-        return discharge(judgement, ROUGH_BEARING, grown, self.worn, self.roughening)
-
     @cached_property
     def rate_at_wear(self) -> Judgement:
         """Eq. (13), solved for the rate."""
-        return self.rough(self.model.rigid).named("wear rate")
+        return self.model.rigid.named("wear rate")
 
     @cached_property
     def pressure_at_wear(self) -> Judgement:
         """The pressure in terms of wear and load."""
-        return self.rough(rigid(self.model.pressure_of_bearing_wear))
+        return rigid(self.model.pressure_of_bearing_wear)
 
     @cached_property
     def deviation(self) -> Judgement:
