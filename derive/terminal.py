@@ -5,12 +5,12 @@ Every command imports this module at its start, so it imports the standard libra
 
 from __future__ import annotations
 
-import _thread
 import argparse
 import json
 import math
 import os
 import shutil
+import signal
 import sys
 import threading
 import time
@@ -76,7 +76,9 @@ def _no_interrupt_lost() -> Iterator[None]:
 
     def hook(dropped: sys.UnraisableHookArgs) -> None:
         if issubclass(dropped.exc_type, KeyboardInterrupt):
-            threading.Timer(MOMENT, _thread.interrupt_main).start()
+            # A signal ends what the main thread waits for, too.
+            again = threading.main_thread().ident, signal.SIGINT
+            threading.Timer(MOMENT, signal.pthread_kill, again).start()
         else:
             before(dropped)
 
