@@ -178,9 +178,9 @@ def wear_in_contact(
         whole = remaining / steps
         expected = over.expected[rows] - length[rows]
         expected = np.minimum(np.where(expected > 0.0, expected, LEAST * whole), whole)
-        stretch = PhaseInterval((over.begin + length)[rows], whole, expected)
+        interval = PhaseInterval((over.begin + length)[rows], whole, expected)
         start, earlier = (u + added)[rows], (before + added)[rows]
-        part = _step(contact.take(going), rule, tolerance, start, stretch)
+        part = _step(contact.take(going), rule, tolerance, start, interval)
         evaluations += part.evaluations
         excess = _step_error(rule, part, earlier) / tolerance
         given_up = (whole <= SHORTEST * over.whole[rows]) | (len(parts) >= MOST_PARTS)
@@ -193,7 +193,7 @@ def wear_in_contact(
             ContactPart(
                 contact.by_law,
                 some,
-                stretch.begin[fine],
+                interval.begin[fine],
                 part.length[fine],
                 start[fine],
                 part.inside[:, fine],

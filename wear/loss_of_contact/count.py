@@ -30,7 +30,14 @@ from wear.loss_of_contact.cycle_jumps import (
 from wear.loss_of_contact.grazing import limit_wear_of
 from wear.loss_of_contact.increments import IncrementSeries, fitted
 from wear.loss_of_contact.period_map import switched_period_map
-from wear.loss_of_contact.plan import SHIFT, CountProblem, GrazingPoint, count_problem, plan_domains
+from wear.loss_of_contact.plan import (
+    BEYOND,
+    SHIFT,
+    CountProblem,
+    GrazingPoint,
+    count_problem,
+    plan_domains,
+)
 from wear.loss_of_contact.queries import (
     CYCLES,
     FINER_CYCLES,
@@ -50,7 +57,7 @@ from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, cycles_to_
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
-from wear.orbit.period_map import settings
+from wear.orbit.period_map import MANY_DIGITS, settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
 from wear.outcome import FADES, STOPS
@@ -172,7 +179,7 @@ class _Counter:
             self.wear_ranges, self.planned_to = [], np.nextafter(self.wear, np.inf)
             return
         domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
-        number = COEFFICIENTS if problem.rtol < 1e-8 else FEWER_COEFFICIENTS
+        number = COEFFICIENTS if problem.rtol < MANY_DIGITS else FEWER_COEFFICIENTS
         known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
         self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
@@ -242,8 +249,8 @@ class _Counter:
 
     def _next_grazing(self) -> GrazingPoint | None:
         """Return the next grazing wear, None if there is none."""
-        behind = self.wear * (1 + 8 * ROUNDOFF)
-        return next((stop for stop in self.problem.stops if stop.at > behind), None)
+        stops = self.problem.stops
+        return next((stop for stop in stops if stop.at > self.wear * BEYOND), None)
 
     def _cycle(self) -> bool:
         """Add one cycle, if a sample near by gives it accurately."""

@@ -263,9 +263,9 @@ def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
 
 
 def _to_limit(fit: IncrementSeries) -> IncrementSeries:
-    """Return the panel from w = 0 to the first one. The series of that is extrapolated by those
-    terms of its Taylor expansion that exceed their error by the misfit; the first neglected term,
-    at w = 0, is the error of the extrapolation."""
+    """Return the panel from w = 0 to the first one, on which the first one's series is extrapolated
+    by the terms of its Taylor expansion that exceed their error by the misfit. The first neglected
+    term, at w = 0, is the error of the extrapolation."""
     first, m = take(fit, slice(1)), fit.series.shape[1]
     grid = abel.grid(first.grid.c, np.zeros(1), first.grid.starts)
     d = first.grid.positions(grid.states(chebyshev_nodes(TERMS)))[0] + 1.0

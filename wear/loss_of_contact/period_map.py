@@ -39,7 +39,7 @@ from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
 
-TOUCH = 16.0  # roundoffs of the margin by which contact is told
+TOUCH = 16.0  # roundoffs of the margin from which contact is resolved
 SOON = 1e-6  # of a piece: after that the load goes where it goes
 FROZEN_NODES = 10  # on a piece, where the rate does not feel the wear
 FROZEN_PHASE = 1e-5  # of a cycle: where contact begins and ends there

@@ -40,6 +40,8 @@ ROOT = 0.5
 LEAST_LEFT = 1e-5  # of the distance to a limit wear: from there on the series is extrapolated
 RESOLVED = 1e3  # times the uncertainty of the limit wear: a distance that is known
 AHEAD = 1.3  # times the requested cycles are planned
+BEYOND = 1 + 8 * ROUNDOFF  # times a wear: larger ones differ from it by more than rounding
+JUST_BEYOND = 1 + 1e-9  # times a grazing wear: there the next cycles are sampled
 
 
 class GrazingPoint(NamedTuple):
@@ -108,29 +110,30 @@ def plan_domains(
     """Return the domains of the series of increments from a `wear` (mm) on, for about so many
     `cycles`, and the wear up to which the plan reaches."""
     stops = problem.stops
-    ahead = [stop for stop in stops if stop.at > wear * (1 + 8 * ROUNDOFF)]
+    ahead = [stop for stop in stops if stop.at > wear * BEYOND]
     last = next((stop for stop in reversed(stops) if stop not in ahead), None)
-    looks = yield from _looks([wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead])
+    ends, branches = [wear, *(stop.at for stop in ahead)], [stop.before for stop in ahead]
+    near_ends = yield from _increments_near_ends(ends, branches)
     domains: list[SeriesDomain] = []
     counted, needed, begin = 0.0, AHEAD * max(cycles, LEAST), wear
     for i, stop in enumerate(ahead):
         if counted > needed:
             return domains, begin
-        lefts, rights, outwards, onwards = (part[i] for part in looks)
-        half = begin + lefts[0]
-        numbers = counted + np.cumsum((lefts / outwards)[::-1])[::-1] * -np.log(FACTOR)
+        beyond, before, adds_beyond, adds_before = (part[i] for part in near_ends)
+        half = begin + beyond[0]
+        numbers = counted + np.cumsum((beyond / adds_beyond)[::-1])[::-1] * -np.log(FACTOR)
         if numbers[0] > needed:
-            half = begin + float(lefts[np.sum(numbers > needed) - 1])
+            half = begin + float(beyond[np.sum(numbers > needed) - 1])
             return [*domains, *_outwards(problem, last, begin, half)], half
-        number = -np.log(FACTOR) * float(np.sum(lefts / outwards + rights / onwards))
+        number = -np.log(FACTOR) * float(np.sum(beyond / adds_beyond + before / adds_before))
         if number >= FEWEST:
-            if outwards[-1] < ENDS * (stop.at - begin):
+            if adds_beyond[-1] < ENDS * (stop.at - begin):
                 domains += _outwards(problem, last, begin, half)
-            domains += _towards(problem, stop, half, rights, onwards)
+            domains += _towards(problem, stop, half, before, adds_before)
         counted, begin, last = counted + number, stop.at, stop
     if counted > needed or (problem.limit_wear is not None and ahead):
         return domains, begin if counted > needed else np.inf
-    added = yield from without_feedback(np.array([begin * (1 + 1e-9)]))
+    added = yield from without_feedback(np.array([begin * JUST_BEYOND]))
     if not added[0] > 0.0:
         return domains, np.inf
     reach = yield from look_ahead(problem, begin, max(cycles - counted, LEAST))
@@ -139,7 +142,7 @@ def plan_domains(
     return domains, reach  # with feedback it may take more cycles to there, or fewer
 
 
-def _looks(
+def _increments_near_ends(
     ends: list[float], branches: list[float]
 ) -> Coroutine[tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
     """Return distances (ranges, k) from the wear at the beginning of every range, and those
@@ -148,11 +151,11 @@ def _looks(
     begin, end = np.array(ends[:-1]), np.array(ends[1:])
     branch, half = np.array(branches), (begin + end) / 2
     shrinking = FACTOR ** np.arange(STEPS)
-    lefts = (half - begin)[:, None] * shrinking
-    rights = np.maximum(branch - half, TINY)[:, None] * shrinking
-    wear = np.stack([begin[:, None] + lefts, branch[:, None] - rights])
-    outwards, onwards = (yield from without_feedback(wear)) + TINY
-    return lefts, rights, outwards, onwards
+    beyond = (half - begin)[:, None] * shrinking
+    before = np.maximum(branch - half, TINY)[:, None] * shrinking
+    wear = np.stack([begin[:, None] + beyond, branch[:, None] - before])
+    adds_beyond, adds_before = (yield from without_feedback(wear)) + TINY
+    return beyond, before, adds_beyond, adds_before
 
 
 def _outwards(
