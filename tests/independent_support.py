@@ -16,7 +16,7 @@ import mpmath
 from mpmath import mpf
 
 from tests.independent import BITS, ONE, ORDER, Problem, times
-from tests.independent_cutoff import BLUR, LONGEST, CutoffJudge, Real, evaluate, zero
+from tests.independent_loss_of_contact import BLUR, LONGEST, CutoffJudge, Real, evaluate, zero
 
 LOOKS = 8  # at each step of a series
 SAMPLES = 128  # of the closed form, evenly spread

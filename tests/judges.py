@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 
 from tests.independent import Judge, Problem, wear_after
-from tests.independent_cutoff import CutoffJudge
+from tests.independent_loss_of_contact import CutoffJudge
 from tests.independent_support import SupportJudge
 from wear.load import Harmonics, Sine, Table
 from wear.numerics.gauss import FloatArray

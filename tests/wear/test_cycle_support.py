@@ -11,7 +11,7 @@ from tests.independent_support import SupportJudge
 from tests.judges import problem
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
-from tests.wear.test_cycle_cutoff import agrees_with_the_judge, loads, supported
+from tests.wear.test_cycle_loss_of_contact import agrees_with_the_judge, loads, supported
 from wear import cycles as count
 from wear import direct
 from wear.binding import bind

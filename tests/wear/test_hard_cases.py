@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.independent import Judge, wear_after
-from tests.independent_cutoff import CutoffJudge
+from tests.independent_loss_of_contact import CutoffJudge
 from tests.judges import problem
 from wear.benchmark import Measurement, Status
 from wear.benchmark import hard as hard_cases

@@ -13,7 +13,7 @@ from tests.judges import honest, true_wear
 from tests.references import DATA
 from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
-from tests.wear.test_cycle_cutoff import loads, supported, with_load
+from tests.wear.test_cycle_loss_of_contact import loads, supported, with_load
 from wear import cycles as count
 from wear.binding import bind
 from wear.faults import AccuracyError
