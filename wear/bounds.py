@@ -108,7 +108,9 @@ def _both(scene: Scene, cycles: Sequence[int], low: Any, high: Any) -> tuple[Enc
     import flint
 
     if scene.contact.ends_at_3_sigma or scene.contact.law != "tanh":
-        raise UsageError("bounds need a scene without cutoff and with the tanh contact law")
+        raise UsageError(
+            "bounds need the tanh contact law, and contact that does not end at 3 sigma"
+        )
     count = [int(n) for n in cycles]
     if any(n < 1 or n != given for n, given in zip(count, cycles, strict=True)):
         raise UsageError("bounds are for whole numbers of cycles, from 1 on")

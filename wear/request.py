@@ -125,7 +125,9 @@ def checked_request(
     elif method == "abel" and obstacle(scene) is not None:
         faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
     elif method == "collocation" and not is_smooth_history(scene):
-        faults.append("method: collocation is for a measured history without cutoff; take auto")
+        faults.append(
+            "method: collocation is for a measured history with ends_at_3_sigma = false; take auto"
+        )
     if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
         faults.append(f"time_limit: {time_limit!r} is not a positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):

@@ -95,5 +95,5 @@ def test_only_whole_cycles(cycles):
 
 
 def test_what_has_no_bounds_is_told():
-    with pytest.raises(UsageError, match="without cutoff"):
+    with pytest.raises(UsageError, match="does not end at 3 sigma"):
         wear_bounds(made(cutoff=True), [1])

@@ -171,7 +171,7 @@ def _march(
                 state = state._replace(mode=_mode(ode, state.u))
             to = min(mark, acting.until)
             if model.ends_at_3_sigma:
-                state = _cycles_with_cutoff(ode, state, to, setting, meter, load.maximum)
+                state = _cycles_with_loss_of_contact(ode, state, to, setting, meter, load.maximum)
             else:
                 state = _smooth_cycles(ode, state, to, setting, meter)
         state = state._replace(cycle=mark, steps=meter.steps - steps_before)
@@ -200,7 +200,7 @@ def _stops(kinks: tuple[float, ...], length: int) -> Iterator[float]:
     yield float(length)
 
 
-def _cycles_with_cutoff(
+def _cycles_with_loss_of_contact(
     ode: WearODE, state: State, to: int, setting: Setting, meter: Meter, maximum: float
 ) -> State:
     """Integrate up to cycle `to`, or to the end of the cycle in which wear stops."""

@@ -1,4 +1,4 @@
-"""One cycle with the cutoff of Eq. (4): no pressure once the closure exceeds three roughnesses.
+"""One cycle with loss of contact: no pressure once the closure exceeds three roughnesses, Eq. (4).
 
 Overview
     The margin of contact 3 sigma - h rises one to one with the pin's displacement U_a. While the
@@ -6,7 +6,7 @@ Overview
     therefore cut where the load turns or has a kink, and integrated piece by piece.
 Modes
     open      margin < 0: no wear
-    closed    margin > 0: wear as without cutoff
+    closed    margin > 0: wear as if contact never ended
     sliding   margin = 0, rigid support: the pressure jumps, and wear in Filippov's sense keeps
               the surfaces at the edge of contact, so that u_c is a function of U_a alone
 Reference

@@ -89,11 +89,11 @@ def _closure_notices(scene: Scene) -> Iterator[str]:
     reach = CONTACT_REACH * scene.initial_roughness
     closure = scene.closure - first
     if scene.contact.ends_at_3_sigma and scene.closure - scene.load.maximum > reach:
-        yield "with the cutoff the pin never comes into contact: there is no wear"
+        yield "contact ends at 3 sigma, and the pin never comes into contact: there is no wear"
     elif scene.contact.ends_at_3_sigma and closure > reach:
         yield (
             f"starts out of contact: the closure {closure:.6g} mm exceeds "
-            f"3 sigma(0) = {reach:.6g} mm and the cutoff is on"
+            f"3 sigma(0) = {reach:.6g} mm, where contact ends"
         )
     if scene.closure < scene.load.maximum:
         yield (
