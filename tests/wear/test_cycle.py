@@ -17,7 +17,9 @@ def fine_cycle(name: str) -> PeriodMap:
     equation = equation_of([reference_scene(name)])
     size = settings(1e-12)._replace(phase_tolerance=1e-15)
     states = np.array([[0.0, 1e-4, 1e-3]])
-    ((_, found),) = resolved(equation, equation.breakpoints, states, size)
+    ((_, found),) = resolved(
+        equation, equation.breakpoints, states, size, np.full(1, size.phase_tolerance)
+    )
     return found
 
 

@@ -84,13 +84,16 @@ class Batches:
         self.samples = request.start[:, None] + begin[:, None] * np.expm1(y)
         floor = np.max(problem.roundoff(self.samples), axis=1)
         self.tolerance = np.maximum(size.residual_tolerance, floor)
+        self.phase_tolerance = np.maximum(size.phase_tolerance, floor)
         self.most = most_evaluations(problem)
         self.todo: dict[tuple[int, int, int, bool], list[Batch]] = {}
 
     def counts(self) -> Iterator[tuple[IntArray, Iterates]]:
         """Yield groups of scenes with their counts."""
         problem, start = self.problem, self.request.start
-        for which, maps in resolved(problem, problem.breakpoints, self.samples, self.size):
+        for which, maps in resolved(
+            problem, problem.breakpoints, self.samples, self.size, self.phase_tolerance
+        ):
             zero, infinite = np.zeros(len(which)), np.full(len(which), np.inf)
             batch = Batch(which, maps, no_cycle(start[which]), 0, infinite, zero)
             self._add(batch, np.arange(len(which)), 0)
@@ -201,7 +204,13 @@ class Batches:
         their panels for a finer mesh; yield those that may have neither."""
         number = batch.transient.cycles
         scenes = np.arange(len(batch.which))
-        plan = planned(batch.maps, scenes, self._grid(batch), self.size)
+        plan = planned(
+            batch.maps,
+            scenes,
+            self._grid(batch),
+            self.size,
+            self.phase_tolerance[batch.which],
+        )
         # Far beyond the requested cycles the rate may vanish altogether: there is no density.
         wanted = MARGIN * np.maximum(self.request.cycles[batch.which], LEAST)
         share = plan.cycles / wanted[plan.layout.scene]

@@ -115,9 +115,6 @@ class Equation(Protocol):
     def slope(self, u: FloatArray, forcing: FloatArray) -> FloatArray:
         """Return the derivative of the rate with respect to u."""
 
-    def roundoff(self, u: FloatArray) -> FloatArray:
-        """Return the relative error of the rate by rounding at states u (scenes, k), at most."""
-
 
 class PeriodMap(NamedTuple):
     """The period map of the scenes of an equation on a mesh of phase, with edges (scenes, 1,
@@ -326,9 +323,10 @@ def resolved(
     breakpoints: Sequence[FloatArray],
     states: FloatArray,
     size: Settings,
+    tolerance: FloatArray,
 ) -> Iterator[tuple[IntArray, PeriodMap]]:
-    """Yield groups of scenes with meshes that resolve the rate at the `states` (scenes, k), cut at
-    least at the `breakpoints` (q + 1,) of each."""
+    """Yield groups of scenes with meshes that resolve the rate at the `states` (scenes, k) to the
+    `tolerance` (scenes,), cut at least at the `breakpoints` (q + 1,) of each."""
     todo = {edges.shape[1]: [(which, edges)] for which, edges in by_size(breakpoints)}
     while todo:
         parts = todo.pop(min(todo))  # cutting only adds intervals: none comes back to this number
@@ -336,8 +334,7 @@ def resolved(
         scenes = equation.take(which)
         maps = period_map(scenes, edges, size.phase_nodes, size.iteration_tolerance)
         rate = maps.rate_without_feedback(states[which])
-        tolerance = np.maximum(size.phase_tolerance, scenes.roundoff(states[which]))
-        marked = unresolved(rate, maps.over, tolerance[..., None])
+        marked = unresolved(rate, maps.over, tolerance[which, None, None])
         if maps.full:
             marked[:] = False
         calm = np.flatnonzero(~marked.any(axis=1))

@@ -30,7 +30,6 @@ SMALL = 0.65  # of the state and its scale: a cycle that adds more changes the r
 SHARP = 0.3  # change of the logarithm of the density within a cycle
 MOST_LOG = 650.0  # logarithm of a density whose exponential is finite
 MOST_PLANNED = 150  # panels of a scene
-ENDS = np.array([-1.0, 1.0])  # of a panel, as positions
 
 
 def look_ahead(problem: Problem, request: Request) -> FloatArray:
@@ -71,9 +70,12 @@ class PanelPlan(NamedTuple):
     unresolved: BoolArray
 
 
-def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -> PanelPlan:
+def planned(
+    maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings, tolerance: FloatArray
+) -> PanelPlan:
     """Return a plan of panels, cut until their coefficients resolve the density without feedback,
-    and until none would hold few cycles at the rate of its end: its last cycle leads beyond it."""
+    and until none would hold few cycles at the rate of its end: its last cycle leads beyond it.
+    Phase is resolved to the `tolerance` (scenes,)."""
     m = size.panel_nodes
     nodes, analysis = chebyshev_nodes(m), chebyshev_analysis(m)[-2:].T
     done: list[PanelPlan] = []
@@ -95,9 +97,7 @@ def planned(maps: PeriodMap, scene: IntArray, grid: abel.Grid, size: Settings) -
         cut &= number < MOST_PLANNED * maps.scenes
         cycles = np.where(sharp | violent, 0.0, np.minimum(cycles, at_end))
         kept = rate if rate[0].size <= IN_CACHE else None  # else it costs more than it saves
-        rounding = of_panels.equation.roundoff(grid.states(ENDS))
-        tolerance = np.maximum(size.phase_tolerance, np.max(rounding, axis=1))[:, None, None]
-        coarse = unresolved(rate, of_panels.over, tolerance)
+        coarse = unresolved(rate, of_panels.over, tolerance[scene, None, None])
         done.append(take(PanelPlan(Layout(scene, grid, kept), cycles, coarse), ~cut))
         if not cut.any():
             break

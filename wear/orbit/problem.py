@@ -43,6 +43,9 @@ class Problem(Equation, Protocol):
 
     def take(self, rows: Selection) -> Problem: ...
 
+    def roundoff(self, u: FloatArray) -> FloatArray:
+        """Return the relative error of the rate by rounding at states u (s, k), at most."""
+
 
 class Request(NamedTuple):
     """A request for some scenes (s,): `cycles` from the states `start`, known up to `start_error`;
