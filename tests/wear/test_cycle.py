@@ -17,9 +17,7 @@ def fine_cycle(name: str) -> PeriodMap:
     equation = equation_of([reference_scene(name)])
     size = settings(1e-12)._replace(phase_tolerance=1e-15)
     states = np.array([[0.0, 1e-4, 1e-3]])
-    ((_, found),) = resolved(
-        equation, equation.breakpoints, states, size, np.full(1, size.phase_tolerance)
-    )
+    ((_, found),) = resolved(equation, equation.breakpoints, states, size)
     return found
 
 

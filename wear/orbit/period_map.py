@@ -323,10 +323,13 @@ def resolved(
     breakpoints: Sequence[FloatArray],
     states: FloatArray,
     size: Settings,
-    tolerance: FloatArray,
+    tolerance: FloatArray | None = None,
 ) -> Iterator[tuple[IntArray, PeriodMap]]:
     """Yield groups of scenes with meshes that resolve the rate at the `states` (scenes, k) to the
-    `tolerance` (scenes,), cut at least at the `breakpoints` (q + 1,) of each."""
+    `tolerance` (scenes,), that of `size` by default, cut at least at the `breakpoints` (q + 1,) of
+    each."""
+    if tolerance is None:
+        tolerance = np.full(len(states), size.phase_tolerance)
     todo = {edges.shape[1]: [(which, edges)] for which, edges in by_size(breakpoints)}
     while todo:
         parts = todo.pop(min(todo))  # cutting only adds intervals: none comes back to this number

@@ -67,9 +67,7 @@ def required(value: Some | None) -> Some:
 def increments(scene: Scene, wear: FloatArray) -> FloatArray:
     """Return the increment (mm) of the next cycle at each wear (mm), integrated, not subtracted."""
     equation, size = equation_of([scene]), settings(RTOL)
-    ((_, maps),) = resolved(
-        equation, equation.breakpoints, wear[None], size, np.full(1, size.phase_tolerance)
-    )
+    ((_, maps),) = resolved(equation, equation.breakpoints, wear[None], size)
     return np.asarray(maps.finer(size).advance(wear[None]).increment[0])
 
 
