@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.util import find_spec
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -44,7 +45,7 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
         raise UsageError("a posterior needs a fit; give the result of wear.fit")
     given: Mapping[str, tuple[Any, int]] = {"steps": (steps, 1), "seed": (seed, 0)}
     for name, (number, least) in given.items():
-        if not isinstance(number, int) or number < least:
+        if not isinstance(number, Integral) or number < least:
             raise UsageError(f"{name}: {number!r} is not a whole number from {least}")
     if not find_spec("emcee"):
         raise UsageError("a posterior needs emcee: pip install 'derive-wear[fit]'")

@@ -82,7 +82,8 @@ class _General:
         return (more - less) / (2 * step)
 
     def roundoff(self, u: FloatArray) -> FloatArray:
-        """Estimate the noise of the rate from its fourth differences (Moré & Wild 2011)."""
+        """Return the relative error of the rate by rounding: its noise, from fourth differences
+        (Moré & Wild 2011), and its change with the last digit of the state."""
         apart = DIFFERENCE * (u + self.scale)[..., None, None]
         steps = np.arange(NOISE_STATES)[:, None]
         rate = self.rate(u[..., None, None] + apart * steps, self.some_phases)
@@ -134,19 +135,19 @@ def count_cycles(
         orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
         u, error = orbits.after(requested)
         if limit < np.inf and not np.any(equation.rate(np.array(limit), equation.some_phases)):
-            _rest(u, error, requested, limit, orbits)
+            u, error = _at_most(limit, u, error, requested, orbits)
     return StatesAfter(u[0], error[0], orbits.cost)
 
 
-def _rest(
-    u: FloatArray, error: FloatArray, cycles: FloatArray, limit: float, orbits: Orbit
-) -> None:
-    """Set the states u (1, n) after `cycles` to a limit at which the rate vanishes where that is
-    nearer than their error: its distance from an earlier state is their error."""
+def _at_most(
+    limit: float, u: FloatArray, error: FloatArray, cycles: FloatArray, orbits: Orbit
+) -> tuple[FloatArray, FloatArray]:
+    """Return the states u (1, n) after `cycles` and their errors, below a limit at which the rate
+    vanishes: the limit itself, where its distance from an earlier state is less than the error."""
     earlier = np.floor(np.geomspace(1.0, max(np.max(cycles), 1.0), EARLIER))[None]
     state, uncertain = orbits.after(earlier)
     bound = np.maximum.accumulate(np.fmax(state * (1.0 - uncertain), 0.0), axis=1)
     before = np.searchsorted(earlier[0], cycles, side="right") - 1
     distance = np.where(before >= 0, 1.0 - bound[0, before] / limit, np.inf)
     near = ~(error <= distance)
-    u[near], error[near] = limit, distance[near]
+    return np.where(near, limit, u), np.where(near, distance, error)
