@@ -80,10 +80,18 @@ def everywhere(judgement: Judgement) -> bool:
     return closed and all(_unbroken(side, ()) for side in claim.args)
 
 
+@cache
 def _tied(relation: sp.Basic) -> bool:
     """Return whether a relation is of fields and of rates."""
-    rates = {d: sp.Dummy() for d in relation.atoms(sp.Derivative) if functions(d)}
-    return bool(rates) and bool(functions(relation.xreplace(rates)))
+    parts, rates, fields = [relation], False, False
+    while parts:
+        part = parts.pop()
+        if isinstance(part, sp.Derivative) and functions(part):
+            rates = True
+            continue
+        fields |= isinstance(part, AppliedUndef) and not isinstance(part, LAW)
+        parts += part.args
+    return rates and fields
 
 
 def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
