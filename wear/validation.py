@@ -9,7 +9,7 @@ Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
     Positive, NonNegative, Real, Count, Flag, Text     kinds of entries, with their words
     problems    the faults of tables, each with its path
-    all_wrong   the error for a validator that finds several faults
+    EntryError  the error for a validator to raise, with one fault or several
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform
 
 from pydantic import ConfigDict, Field, PlainValidator, ValidationError, model_validator
 from pydantic.dataclasses import dataclass
-from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
+from pydantic_core import ArgsKwargs, core_schema
 
 from wear.faults import Fault, SceneError
 from wear.quantities import LARGEST, MOST_CYCLES, SMALLEST, unit_of
@@ -45,29 +45,28 @@ Finding = tuple[str | Path, str, str]
 # Kinds of entries
 
 
-def wrong(problem: str, remedy: str, path: str = "") -> ValidationError:
+class EntryError(ValueError):
+    """The faults of an entry or a table, for a validator to raise: pydantic adds the place."""
+
+    def __init__(self, *findings: Finding) -> None:
+        super().__init__(*findings)
+        self.findings = [
+            (path if isinstance(path, tuple) else tuple(filter(None, path.split("."))), *words)
+            for path, *words in findings
+        ]
+
+
+def wrong(problem: str, remedy: str, path: str = "") -> EntryError:
     """Return the error for a validator to raise: the problem at a path, and its remedy."""
-    return all_wrong((path, problem, remedy))
-
-
-def all_wrong(*faults: Finding) -> ValidationError:
-    """Return the error for a validator to raise, with several (path, problem, remedy)."""
-    details: list[InitErrorDetails] = [
-        {
-            "type": PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": cure}),
-            "loc": path if isinstance(path, tuple) else tuple(filter(None, path.split("."))),
-            "input": None,
-        }
-        for path, problem, cure in faults
-    ]
-    return ValidationError.from_exception_data("wrong", details)
+    return EntryError((path, problem, remedy))
 
 
 def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
     """Return the faults of a table at a `place` of another, each with its path."""
     return [
-        ((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
+        ((*place, *entry["loc"], *path), problem, remedy)
         for entry in error.errors(include_url=False)
+        for path, problem, remedy in entry["ctx"]["error"].findings
     ]
 
 
@@ -147,11 +146,11 @@ class Numbers(EntryKind):
         for place, entry in enumerate(given, start=1):
             try:
                 values.append(Number()(entry, key))
-            except ValidationError as error:
-                [(path, problem, remedy)] = problems(error)
+            except EntryError as error:
+                [(path, problem, remedy)] = error.findings
                 faults.append((path, f"entry {place}: {problem}", remedy))
         if faults:
-            raise all_wrong(*faults)
+            raise EntryError(*faults)
         return tuple(values)
 
 
@@ -272,17 +271,18 @@ class SceneTable:
             instance = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
             for entry in error.errors(include_url=False):
-                name = str(entry["loc"][0])
-                if entry["type"] == "wrong":
-                    faults.append((entry["loc"], entry["ctx"]["problem"], entry["ctx"]["remedy"]))
-                elif name not in cls.entries:
-                    faults.append((name, entry["msg"], "give the name of a scene and its folder"))
-                elif name not in meant:
-                    faults.append(((name,), "missing", _remedy_if_missing(cls, name)))
+                where = entry["loc"]
+                if entry["type"] == "value_error":
+                    found = entry["ctx"]["error"].findings
+                    faults += [((*where, *path), *words) for path, *words in found]
+                elif where[0] not in cls.entries:
+                    faults.append((where, entry["msg"], "give the name of a scene and its folder"))
+                elif where[0] not in meant:
+                    faults.append((where, "missing", _remedy_if_missing(cls, str(where[0]))))
         present = {key: entry for key, entry in given.items() if entry is not None}
         faults += cls.relations(dict.fromkeys(meant, ...) | present)
         if faults:
-            raise all_wrong(*faults)
+            raise EntryError(*faults)
         return instance
 
 

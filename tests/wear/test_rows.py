@@ -4,13 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from wear.faults import SceneError
 from wear.load import Table, csv_file
 from wear.load.csv_file import TableFile, read_rows
 from wear.scene import Scene, load_scene
-from wear.validation import problems
+from wear.validation import EntryError
 
 HEAD = "t_s,U_a_mm\n"
 
@@ -24,9 +23,9 @@ HEAD = "t_s,U_a_mm\n"
 def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
     (tmp_path / "a.csv").write_bytes(f"{HEAD}0,5\n1,{cell}\n".encode())
     if number is None:
-        with pytest.raises(ValidationError) as caught:
+        with pytest.raises(EntryError) as caught:
             read_rows(TableFile("a.csv"), tmp_path)
-        ((_, problem, _),) = problems(caught.value)
+        ((_, problem, _),) = caught.value.findings
         wrong = f'"1,{cell}" has 3 cells, the header 2' if "," in cell else f'U_a_mm is "{cell}"'
         assert problem == f"a.csv line 3: {wrong}"
     else:
@@ -35,7 +34,7 @@ def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
 
 def test_a_point_beside_decimal_commas_may_separate_thousands(tmp_path):
     (tmp_path / "a.csv").write_text("t_s;U_a_mm\n0;1,5\n1;1.250\n")
-    with pytest.raises(ValidationError, match=r'line 3: U_a_mm is "1\.250"'):
+    with pytest.raises(EntryError, match=r'line 3: U_a_mm is "1\.250"'):
         read_rows(TableFile("a.csv", delimiter=";", decimal=","), tmp_path)
 
 

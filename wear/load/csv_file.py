@@ -20,6 +20,7 @@ from wear.input_files import UTF_16_MARKS, cells_of, find_rows, number_in, read_
 from wear.numerics.gauss import FloatArray
 from wear.validation import (
     BOUNDS,
+    EntryError,
     Finding,
     Flag,
     OneOf,
@@ -27,7 +28,6 @@ from wear.validation import (
     SceneTable,
     Text,
     Words,
-    all_wrong,
     is_sane,
     table,
     wrong,
@@ -163,7 +163,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
     """Return the rows of a file, by its path from `folder`; with `from_first`, times count from the
     first row.
 
-    Raises pydantic's `ValidationError` with all faults.
+    Raises `EntryError` with all faults.
     """
     name = form.file
     if folder is None:
@@ -209,7 +209,7 @@ LineFault = tuple[int, str, str]
 def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
     """Return the error for lines of a file."""
     name = shown(form.file)
-    return all_wrong(*(("file", f"{name} line {n}: {text}", cure) for n, text, cure in faults))
+    return EntryError(*(("file", f"{name} line {n}: {text}", cure) for n, text, cure in faults))
 
 
 def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:

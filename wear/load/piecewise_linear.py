@@ -16,7 +16,7 @@ from wear.load.csv_file import ForceFile, HistoryFile, RowsFile, TableFile, orde
 from wear.load.periodic import inside, within_cycle
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of
-from wear.validation import Positive, Reals, SceneTable, all_wrong, table, wrong
+from wear.validation import EntryError, Positive, Reals, SceneTable, table, wrong
 
 T = TypeVar("T", "Table", "ForceTable", "HistoryLoad")
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
@@ -79,7 +79,7 @@ class _Rows(SceneTable):
             problem = f"there are {rows} times and {len(self.rows)} values"
             raise wrong(problem, "give as many of both, from 2 on", "times_s")
         if faults := order_faults(np.asarray(self.times_s)):
-            raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
+            raise EntryError(*(("times_s", problem, remedy) for _, problem, remedy in faults))
         return self
 
 
