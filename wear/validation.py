@@ -38,8 +38,8 @@ T = TypeVar("T")
 Path = tuple[str | int, ...]
 """The place of a value: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
-Finding = tuple[str | Path, str, str]
-"""A path, which may be dotted, the problem there, and its remedy."""
+Finding = tuple[Path, str, str]
+"""A path, the problem there, and its remedy."""
 
 
 # Kinds of entries
@@ -50,18 +50,15 @@ class EntryError(ValueError):
 
     def __init__(self, *findings: Finding) -> None:
         super().__init__(*findings)
-        self.findings = [
-            (path if isinstance(path, tuple) else tuple(filter(None, path.split("."))), *words)
-            for path, *words in findings
-        ]
+        self.findings = findings
 
 
 def wrong(problem: str, remedy: str, path: str = "") -> EntryError:
-    """Return the error for a validator to raise: the problem at a path, and its remedy."""
-    return EntryError((path, problem, remedy))
+    """Return the error for a validator to raise: the problem at a dotted path, and its remedy."""
+    return EntryError((tuple(filter(None, path.split("."))), problem, remedy))
 
 
-def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
+def problems(error: ValidationError, place: Path = ()) -> list[Finding]:
     """Return the faults of a table at a `place` of another, each with its path."""
     return [
         ((*place, *entry["loc"], *path), problem, remedy)
@@ -238,7 +235,7 @@ class SceneTable:
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:  # noqa: ARG003
-        """Yield (key, problem, remedy) for inconsistent entries, which are not yet validated."""
+        """Yield (path, problem, remedy) for inconsistent entries, which are not yet validated."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -266,15 +263,15 @@ class SceneTable:
         meant = {key for key, _ in reported} - {""}
         faults = [finding for _, finding in reported]
         if len(unknown) > len(reported):
-            faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
+            faults.append(((), "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
             instance = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
             for entry in error.errors(include_url=False):
                 where = entry["loc"]
                 if entry["type"] == "value_error":
-                    found = entry["ctx"]["error"].findings
-                    faults += [((*where, *path), *words) for path, *words in found]
+                    for path, problem, remedy in entry["ctx"]["error"].findings:
+                        faults.append(((*where, *path), problem, remedy))
                 elif where[0] not in cls.entries:
                     faults.append((where, entry["msg"], "give the name of a scene and its folder"))
                 elif where[0] not in meant:

@@ -118,6 +118,23 @@ def test_an_instrument_s_file_that_is_described_wrongly(entries, problem, remedy
     assert remedy in caught.value.faults[0].remedy
 
 
+@pytest.mark.parametrize(
+    ("entries", "keys"),
+    [
+        ({"perod_s": 1.0, "resample": 3}, ["perod_s", "resample", "file", "file"]),
+        ({"period_s": -1.0, "unit": "mile"}, ["period_s", "unit", "file", "file"]),
+        ({"delimeter": ";"}, ["delimeter"]),  # the rows are not known to be written otherwise
+        ({"encoding": 1}, ["encoding"]),
+        ({"repeet": True}, ["repeet"]),
+    ],
+)
+def test_a_bad_key_hides_no_bad_row(entries, keys, tmp_path):
+    (tmp_path / "a.csv").write_text(HEAD + "0,0\n1,x\n2,y\n")
+    with pytest.raises(SceneError) as caught:
+        scene(tmp_path, file="a.csv", **entries)
+    assert [fault.key for fault in caught.value.faults] == keys
+
+
 def test_a_fault_of_the_load_of_a_file_is_the_file_s(tmp_path):
     (tmp_path / "a.csv").write_text("t_s,R_a_N\n0,-1\n1,-1\n")
     for kind, entries, problem in (

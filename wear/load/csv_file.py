@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import AfterValidator, Field, PlainValidator, ValidationError
+from pydantic import AfterValidator, Field, PlainValidator
 
 from wear.input_files import UTF_16_MARKS, cells_of, find_rows, number_in, read_bytes
 from wear.numerics.gauss import FloatArray
@@ -104,7 +104,11 @@ class RowsFile(SceneTable):
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         if given.get("decimal") == "," and given.get("delimiter", ",") == ",":
-            yield "decimal", "is the delimiter too", 'give the delimiter, such as delimiter = ";"'
+            yield (
+                ("decimal",),
+                "is the delimiter too",
+                'give the delimiter, such as delimiter = ";"',
+            )
 
 
 @table("load", kind="table")
@@ -159,9 +163,9 @@ class Rows(NamedTuple):
     sha256: str
 
 
-def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) -> Rows:
-    """Return the rows of a file, by its path from `folder`; with `from_first`, times count from the
-    first row.
+def read_rows(form: RowsFile, folder: Path | None) -> Rows:
+    """Return the rows of a file, by its path from `folder`; times of a record that repeats count
+    from the first row.
 
     Raises `EntryError` with all faults.
     """
@@ -181,7 +185,7 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
         likely = "utf-16" if data.startswith(UTF_16_MARKS) else "latin-1"
         remedy = f'save it as {known} text, or give encoding = "{likely}"'
         raise wrong(f"{shown(name)} is not {known} text", remedy, "file") from None
-    times, values = _parse(text, form, from_first)
+    times, values = _parse(text, form)
     digest = hashlib.sha256(data).hexdigest()
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
@@ -206,13 +210,13 @@ LineFault = tuple[int, str, str]
 """Number of a line, its fault, and the remedy."""
 
 
-def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
+def _wrong_lines(form: RowsFile, *faults: LineFault) -> EntryError:
     """Return the error for lines of a file."""
     name = shown(form.file)
-    return EntryError(*(("file", f"{name} line {n}: {text}", cure) for n, text, cure in faults))
+    return EntryError(*((("file",), f"{name} line {n}: {text}", cure) for n, text, cure in faults))
 
 
-def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
+def _parse(text: str, form: RowsFile) -> FloatArray:
     """Return the two columns, or raise the faults of the first few faulty lines."""
     found = find_rows(text, form.delimiter, lambda names: set(form.columns) <= {*names})
     if found is None:
@@ -244,6 +248,7 @@ def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
             break
     columns = np.array(valid, dtype=float).reshape(-1, 2).T
     if valid:
+        from_first = isinstance(form, TableFile) and form.repeat
         columns[0] -= columns[0, 0] if from_first else 0.0
         faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
     if not faults and not 2 <= len(valid) <= MOST_ROWS:

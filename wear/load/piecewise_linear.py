@@ -79,7 +79,7 @@ class _Rows(SceneTable):
             problem = f"there are {rows} times and {len(self.rows)} values"
             raise wrong(problem, "give as many of both, from 2 on", "times_s")
         if faults := order_faults(np.asarray(self.times_s)):
-            raise EntryError(*(("times_s", problem, remedy) for _, problem, remedy in faults))
+            raise EntryError(*((("times_s",), problem, remedy) for _, problem, remedy in faults))
         return self
 
 
@@ -210,15 +210,14 @@ class HistoryLoad(_Rows):
 
 def load_from_file(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
     """Return the load of a CSV file, or raise pydantic's `ValidationError` with all its faults."""
-    repeat = isinstance(form, TableFile) and form.repeat
-    rows = read_rows(form, folder, from_first=repeat)
+    rows = read_rows(form, folder)
     times, values = rows.times, rows.values
     source = dataclasses.replace(form, sha256=rows.sha256)
     if isinstance(source, HistoryFile):
         period = form.period_s or float(times[-1])
         return _validated(HistoryLoad, _floats(times), _floats(values), period, source)
     assert isinstance(source, TableFile)
-    times, values = _one_period(times, values, form.period_s, repeat)
+    times, values = _one_period(times, values, form.period_s, source.repeat)
     if isinstance(source, ForceFile):
         return _validated(ForceTable, _floats(times), _floats(values), source)
     return _validated(Table, _floats(times), _floats(values), source)

@@ -66,7 +66,7 @@ class Scene(SceneTable):
         if "bearing" in given and all(type(r) in (int, float) and r == 0 for r in rough):
             which = "both solids" if len(rough) > 1 else "the only rough solid"
             remedy = "give at least one solid a roughness_mm > 0"
-            yield "bearing.roughness_mm", f"the roughness is zero on {which}", remedy
+            yield ("bearing", "roughness_mm"), f"the roughness is zero on {which}", remedy
 
     @classmethod
     def from_dict(

@@ -129,14 +129,14 @@ class Contact(SceneTable):
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the faults of closures and of the contact's two lengths."""
-        match [key in given for key in CLOSURES]:
-            case [False, False]:
-                yield "", f"{' or '.join(CLOSURES)} is missing", "give one of the two"
-            case [True, True]:
-                yield CLOSURES[1], f"{' and '.join(CLOSURES)} are both given", "keep one of the two"
+        known = [key for key in CLOSURES if key in given]
+        if not known:
+            yield (), f"{' or '.join(CLOSURES)} is missing", "give one of the two"
+        if len(known) > 1:
+            yield CLOSURES[1:], f"{' and '.join(known)} are both given", "keep one of the two"
         for one, other in (("width_mm", "length_mm"), ("length_mm", "width_mm")):
             if one in given and other not in given:
-                yield "", f"{other} is missing", f"give it too, or drop {one}"
+                yield (), f"{other} is missing", f"give it too, or drop {one}"
 
 
 @table("support")
