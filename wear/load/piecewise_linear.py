@@ -6,7 +6,7 @@ import dataclasses
 import math
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Self, TypeVar
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -22,8 +22,43 @@ T = TypeVar("T", "Table", "ForceTable", "HistoryLoad")
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
 
 
+class Lines:
+    """Values on straight lines between rows, given by their abscissae and values."""
+
+    if TYPE_CHECKING:
+
+        @cached_property
+        def _abscissae(self) -> FloatArray: ...
+
+        @cached_property
+        def _values(self) -> FloatArray: ...
+
+    @cached_property
+    def minimum(self) -> float:
+        return float(np.min(self._values))
+
+    @cached_property
+    def maximum(self) -> float:
+        return float(np.max(self._values))
+
+    @cached_property
+    def mean(self) -> float:
+        areas = 0.5 * np.diff(self._abscissae) * (self._values[1:] + self._values[:-1])
+        return math.fsum(areas.tolist()) / float(self._abscissae[-1] - self._abscissae[0])
+
+    def _interpolated(self, at: FloatArray) -> FloatArray:
+        """Return the values on the straight lines between the rows."""
+        return np.asarray(np.interp(at, self._abscissae, self._values))
+
+    def _slope(self, at: FloatArray) -> FloatArray:
+        """Return the slope at each abscissa; at a row, that of the line to its right."""
+        slopes = np.diff(self._values) / np.diff(self._abscissae)
+        line = np.searchsorted(self._abscissae, at, side="right") - 1
+        return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
+
+
 @table("")
-class _Rows(SceneTable):
+class _Rows(Lines, SceneTable):
     """Values at times in s that rise from 0; `value_field` names the field of the values."""
 
     value_field: ClassVar[str] = "values_mm"
@@ -36,14 +71,6 @@ class _Rows(SceneTable):
         return values
 
     @cached_property
-    def minimum(self) -> float:
-        return min(self.rows)
-
-    @cached_property
-    def maximum(self) -> float:
-        return max(self.rows)
-
-    @cached_property
     def _values(self) -> FloatArray:
         return np.asarray(self.rows)
 
@@ -51,21 +78,6 @@ class _Rows(SceneTable):
     def _abscissae(self) -> FloatArray:
         """Return the abscissae of the rows: their times."""
         return np.asarray(self.times_s)
-
-    def _interpolated(self, at: FloatArray) -> FloatArray:
-        """Return the values on the straight lines between the rows."""
-        return np.asarray(np.interp(at, self._abscissae, self._values))
-
-    def _slope(self, at: FloatArray) -> FloatArray:
-        """Return the slope at each abscissa; at a row, that of the line to its right."""
-        slopes = np.diff(self._values) / np.diff(self._abscissae)
-        line = np.searchsorted(self._abscissae, at, side="right") - 1
-        return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
-
-    @cached_property
-    def mean(self) -> float:
-        areas = 0.5 * np.diff(self._abscissae) * (self._values[1:] + self._values[:-1])
-        return math.fsum(areas.tolist()) / float(self._abscissae[-1] - self._abscissae[0])
 
     def __repr__(self) -> str:
         values, duration, unit = self.rows, self.times_s[-1], unit_of(self.value_field)
@@ -206,6 +218,32 @@ class HistoryLoad(_Rows):
     def time_at(self, cycles: FloatArray | float) -> FloatArray:
         """Return the time in s after numbers of cycles."""
         return inside(np.asarray(cycles) * self.period_s, self.duration)
+
+
+class HistoryCycle(Lines):
+    """One cycle of a measured history, from cycle `first`, as a function of its phase."""
+
+    peaks: ClassVar[tuple[float, ...]] = ()  # all of them are kinks
+
+    def __init__(self, history: HistoryLoad, first: int) -> None:
+        start, end = history.time_at(np.minimum([first, first + 1], history.cycles)).tolist()
+        times = np.array([start, *history.breakpoints(start, end), end])
+        self.period = history.period_s
+        self._abscissae, self._values = (times - start) / self.period, history(times)
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        return self._interpolated(np.asarray(phase))
+
+    def slope(self, phase: FloatArray | float) -> FloatArray:
+        return self._slope(np.asarray(phase))
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        """Return no derivatives: the rows of a history are no parameters."""
+        return {}
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        return tuple(self._abscissae[1:-1].tolist())
 
 
 def load_from_file(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
