@@ -149,7 +149,7 @@ def _mean(
     last = len(over.edges) - 1
     increment = part.u[:, last] - part.u[:, 0]
     by_wear, by_rule = increment / wear_per_pressure, p.nodes @ over.rule.weights @ over.lengths
-    with np.errstate(invalid="ignore"):  # an unknown error of no wear
+    with np.errstate(invalid="ignore", over="ignore"):  # an unknown error, of no wear perhaps
         wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_per_pressure
     return np.where(wear_error < rule_error, by_wear, by_rule)
 

@@ -264,7 +264,8 @@ def sweep(
         return wear_after(bind(scene), scene.load, numbers, rtol)[:2]
 
     u, error = _in_groups(fewer, len(numbers), together, alone, progress)
-    error += [each.wear_error(row) for each, row in zip(fewer, u, strict=True)]
+    for row, resampling in enumerate(fewer):
+        error[row] += resampling.wear_error(u[row])
     # Where wear accelerates, the error by merged rows grows.
     again = [row for row, each in enumerate(fewer) if each.error and not max(error[row]) <= rtol]
     if again:

@@ -93,21 +93,16 @@ class GivenLoad(Model):
     def _closed(self, resting: Fields) -> Fields:
         """Return fields with the closure at which the contact law has their pressure: a difference
         of wear and displacement would lose its digits where the wear is deep."""
+        from scipy.optimize.elementwise import bracket_root, find_root
+
         level = self.constants._replace(h_0=0.0 * self.constants.h_0, compliance=0.0)
         initial = self.module.fields(0.0, 0.0, 0.0, level).sigma
 
         def residual(ratio: Real, p: Real, initial: Real, *constants: Real) -> Real:
             return self.module.residual(p, 0.0, -ratio * initial, type(level)(*constants))
 
-        ratio = _increasing_root(residual, (resting.p, initial, *level))
+        known = resting.p, initial, *level
+        with np.errstate(all="ignore"):  # NaN without a root
+            bracket = bracket_root(residual, 0.0, 4.0, args=known).bracket
+            ratio = find_root(residual, bracket, args=known).x
         return resting._replace(h=np.where(resting.p > 0.0, ratio * resting.sigma, np.nan))
-
-
-def _increasing_root(function: Callable[..., Real], arguments: tuple[Real, ...]) -> Real:
-    """Return the root of an increasing function of one variable of order 1, for broadcast
-    `arguments`; NaN without a root."""
-    from scipy.optimize.elementwise import bracket_root, find_root
-
-    with np.errstate(all="ignore"):
-        bracket = bracket_root(function, 0.0, 4.0, args=arguments).bracket
-        return find_root(function, bracket, args=arguments).x

@@ -27,6 +27,7 @@ import numpy as np
 from wear import own_laws
 from wear.binding import bind
 from wear.cycles import orbit_of_scene
+from wear.faults import AccuracyError
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
@@ -40,6 +41,7 @@ TOLERANCE = Decimal("1e-6")
 """The note's criterion: relative distance of the wear rate from its limit."""
 
 _DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
+_DIGITS.traps[decimal.Overflow] = False  # infinity: the pressure of a gap beyond all bounds is zero
 _PHASES = 4096
 
 
@@ -136,6 +138,8 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     ------
     UsageError
         if the load does not repeat.
+    AccuracyError
+        if the constants of an extreme scene cannot be computed.
 
     >>> found = asymptote("section4")
     >>> found.regime, f"{found.wear_per_cycle_mm:.10e}"
@@ -143,10 +147,13 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     """
     scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
-        case = _Case(scene)
-        if scene.given_load:
-            return _given_load(case)
-        return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
+        try:
+            case = _Case(scene)
+            if scene.given_load:
+                return _given_load(case)
+            return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
+        except decimal.DecimalException as fault:
+            raise AccuracyError("asymptote: its constants are beyond all numbers") from fault
 
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:

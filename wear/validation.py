@@ -17,7 +17,8 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Set, Sized
+from itertools import islice
 from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform
 
 from pydantic import ConfigDict, Field, PlainValidator, ValidationError, model_validator
@@ -101,6 +102,8 @@ class Number(EntryKind):
             number = float(raw)
         except OverflowError:
             raise wrong("is a whole number too large for a float", wanted) from None
+        except (TypeError, ValueError):  # of a symbol, or of a number without a value
+            raise wrong(f"is {kind_of(raw)}", wanted) from None
         if self._fits(number):
             return number
         if not math.isfinite(number):
@@ -131,12 +134,13 @@ class Numbers(EntryKind):
     def __call__(self, raw: Any, key: str) -> tuple[float, ...]:
         if hasattr(raw, "tolist"):  # NumPy's arrays
             raw = raw.tolist()
-        if not isinstance(raw, Iterable) or isinstance(raw, str | bytes | Mapping):
+        if not isinstance(raw, Iterable) or isinstance(raw, str | bytes | Mapping | Set):
             remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
             raise wrong(f"is {kind_of(raw)}", remedy)
-        given: tuple[Any, ...] = tuple(raw)
+        given: tuple[Any, ...] = tuple(islice(raw, self.most + 1))
         if len(given) > self.most:
-            raise wrong(f"has {len(given)} entries", f"give at most {self.most}")
+            number = len(raw) if isinstance(raw, Sized) else "too many"
+            raise wrong(f"has {number} entries", f"give at most {self.most}")
         if all(type(entry) is float and is_sane(entry) for entry in given):
             return given
         values, faults = list[float](), list[Finding]()

@@ -18,7 +18,7 @@ HEAD = "t_s,U_a_mm\n"
     ("cell", "number"),
     [("-0", 0.0), ("+2", 2.0), (" 3 ", 3.0), ("4E0", 4.0), ('"6"', 6.0), ("8\r", 8.0),
      *((wrong, None) for wrong in ("nan", "inf", "1e-31", "1e31", "x", "", "5#", "0x7", "1d2",
-                                   "1j", "1 2", "1,2"))],
+                                   "1j", "1 2", "1,2", "1_0"))],
 )  # fmt: skip
 def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
     (tmp_path / "a.csv").write_bytes(f"{HEAD}0,5\n1,{cell}\n".encode())
@@ -105,6 +105,7 @@ def test_rows_may_stand_in_the_scene_itself(tmp_path):
         ({"encoding": "martian"}, '"martian" is unknown', "latin-1"),
         ({"encoding": "hex"}, '"hex" is unknown', "latin-1"),
         ({"encoding": "utf-8"}, "is not UTF-8 text", 'encoding = "latin-1"'),
+        ({"encoding": "punycode"}, "is not PUNYCODE text", 'encoding = "latin-1"'),
         ({"repeat": 1}, "is a number", "true or false"),
         ({"decimal": "."}, 'Zeit (ms) is "0,0"', "such as 0.5"),
     ],
@@ -185,6 +186,19 @@ def test_a_record_that_is_shorter_than_the_period_is_refused(tmp_path):
     record(tmp_path, 30)
     with pytest.raises(SceneError, match="before the period does"):
         load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+
+
+def test_a_period_of_a_single_row_is_refused(tmp_path):
+    """It would be a constant load."""
+    record(tmp_path, 30)
+    with pytest.raises(SceneError, match="is not longer than the time from row to row"):
+        load(tmp_path, file="a.csv", period_s=0.0006, repeat=True)
+
+
+def test_the_period_of_rows_is_looked_at_as_any_other():
+    rows = {"kind": "table", "times_s": [0.0, 1e9, 3e9], "values_mm": [0.0, 1e-4, 0.0]}
+    slow = load_scene("section4").with_({"load": rows})
+    assert any("period_s = 3e+09 is outside" in notice for notice in slow.notices)
 
 
 def test_the_seam_and_the_drift_of_a_record_are_told(tmp_path):

@@ -180,7 +180,7 @@ def read_rows(form: RowsFile, folder: Path | None) -> Rows:
         raise wrong(f"{shown(name)}: {problem}{looked}", remedy, "file")
     try:
         text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
-    except UnicodeDecodeError:
+    except UnicodeError:
         known = form.encoding.upper()
         likely = "utf-16" if data.startswith(UTF_16_MARKS) else "latin-1"
         remedy = f'save it as {known} text, or give encoding = "{likely}"'

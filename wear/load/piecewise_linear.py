@@ -125,8 +125,13 @@ class _PeriodicRows(_Rows):
         return {f"{self.value_field}[{j}]": hat for j, hat in enumerate(hats)}
 
     @property
-    def period(self) -> float:
+    def period_s(self) -> float:
+        """Return T; notices look at it as at that of other loads."""
         return self.times_s[-1]
+
+    @property
+    def period(self) -> float:
+        return self.period_s
 
     @cached_property
     def kinks(self) -> tuple[float, ...]:
@@ -228,6 +233,8 @@ class HistoryCycle(Lines):
     def __init__(self, history: HistoryLoad, first: int) -> None:
         start, end = history.time_at(np.minimum([first, first + 1], history.cycles)).tolist()
         times = np.array([start, *history.breakpoints(start, end), end])
+        if start == end:  # after the last cycle: its last line
+            times = np.array(history.times_s[-2:])
         self.period = history.period_s
         self._abscissae, self._values = (times - start) / self.period, history(times)
 
@@ -288,6 +295,9 @@ def _one_period(
         remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
         raise wrong(problem, remedy, "period_s")
     kept = times < period - slack if repeat else times < max(last, period - slack)
+    if repeat and not kept[1]:
+        problem = f"is not longer than the time from row to row, {float(times[1])!r} s"
+        raise wrong(problem, "give the time of a period, in s", "period_s")
     first, end = values[[0, -1]].tolist()
     if not repeat and not kept[-1] and abs(end - first) > SEAM_TOLERANCE * np.ptp(values):
         problem = f"the load jumps at the seam from {end!r} to {first!r}"

@@ -76,7 +76,9 @@ class Scene(SceneTable):
 
         Raises `SceneError` with every fault. `folder` is where CSV files are looked for.
         """
-        return _checked(tables, Source(_place(name)), name, folder)
+        if folder is not None and not is_path(folder):
+            raise UsageError(f"folder: {folder!r} is not the name of a folder")
+        return _checked(tables, Source(_place(str(name))), str(name), folder and Path(folder))
 
     def with_(self, changes: Mapping[str, Any]) -> Scene:
         """Return the scene with entries changed, as `--set` changes those of a file; None drops.
