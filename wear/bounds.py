@@ -152,7 +152,12 @@ class _Flow(NamedTuple):
         period, count = arb(load.period), PHASES if terms else 1
 
         def loads(turns: list[Ball]) -> Balls:
-            return np.array([_load(arb(mean) + lift, wave, turn) for turn in turns], dtype=object)
+            """Return U_a at the phases of half turns."""
+            waves = [
+                [c * (j * turn).cos_pi() + s * (j * turn).sin_pi() for j, c, s in wave]
+                for turn in turns
+            ]
+            return np.array([sum(each, arb(mean) + lift) for each in waves], dtype=object)
 
         return cls(
             module,
@@ -232,14 +237,6 @@ def _terms(load: Any) -> tuple[float, list[tuple[int, float, float]]]:
         terms = zip(map(int, orders), *waves, strict=True)
         return load.mean, [term for term in terms if any(term[1:])]
     raise UsageError("bounds cycle by cycle need a smooth periodic load; try static_bounds")
-
-
-def _load(mean: Ball, wave: list[tuple[int, Ball, Ball]], turn: Ball) -> Ball:
-    """Return U_a at the phase turn/2."""
-    return sum(
-        (c * (j * turn).cos_pi() + s * (j * turn).sin_pi() for j, c, s in wave),
-        mean,
-    )
 
 
 def _run(flow: _Flow, cycles: Sequence[int], upper: bool) -> dict[int, float]:

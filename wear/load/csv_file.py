@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
@@ -23,13 +24,13 @@ from wear.validation import (
     EntryError,
     Finding,
     Flag,
-    OneOf,
     Positive,
     SceneTable,
     Text,
-    Words,
     is_sane,
+    one_of,
     table,
+    words,
     wrong,
 )
 from wear.words import shown
@@ -74,7 +75,7 @@ def _file(columns: str, ending: str = "") -> Any:
 
 Encoding = Annotated[Text, AfterValidator(_encoding)]
 Delimiter = Annotated[str, PlainValidator(_delimiter)]
-FileName = Annotated[str, Words(1000)]
+FileName = Annotated[str, PlainValidator(partial(words, most=1000))]
 Names = Annotated[tuple[str, str], PlainValidator(_pair)]
 
 
@@ -89,14 +90,14 @@ class RowsFile(SceneTable):
     columns: Names = Field(
         default=("t_s", "U_a_mm"), description="names of the columns of time and displacement"
     )
-    time_unit: Annotated[str, OneOf(SECONDS)] = Field(
+    time_unit: Annotated[str, one_of(SECONDS)] = Field(
         default="s", description="unit of the time column"
     )
-    unit: Annotated[str, OneOf(MILLIMETRES)] = Field(
+    unit: Annotated[str, one_of(MILLIMETRES)] = Field(
         default="mm", description="unit of the displacement column"
     )
     delimiter: Delimiter = Field(default=",", description="character between the columns")
-    decimal: Annotated[str, OneOf((".", ","))] = Field(
+    decimal: Annotated[str, one_of((".", ","))] = Field(
         default=".", description="decimal sign of the numbers"
     )
     encoding: Encoding = Field(default="utf-8", description="encoding of the text")
@@ -150,7 +151,7 @@ class ForceFile(TableFile):
     columns: Names = Field(
         default=("t_s", "R_a_N"), description="names of the columns of time and force"
     )
-    unit: Annotated[str, OneOf(NEWTONS)] = Field(
+    unit: Annotated[str, one_of(NEWTONS)] = Field(
         default="N", description="unit of the force column"
     )
 
