@@ -30,8 +30,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wear.binding import bound, generated
-from wear.faults import UsageError
+from wear.faults import Faults, UsageError
 from wear.load import Constant, Harmonics, Sine
+from wear.request import whole_cycles
 from wear.scene import Scene
 
 Ball = Any  # flint.arb
@@ -107,13 +108,14 @@ def _both(scene: Scene, cycles: Sequence[int], low: Any, high: Any) -> tuple[Enc
     """Run the lower bound with the load ``low`` and the upper one with ``high``."""
     import flint
 
-    if scene.contact.ends_at_3_sigma or scene.contact.law != "tanh":
-        raise UsageError(
-            "bounds need the tanh contact law, and contact that does not end at 3 sigma"
+    faults = Faults()
+    if scene.contact.ends_at_3_sigma or scene.contact.law != "tanh" or scene.given_load:
+        faults.append(
+            "bounds need a given displacement, the tanh contact law, and contact that does not end "
+            "at 3 sigma"
         )
-    count = [int(n) for n in cycles]
-    if any(n < 1 or n != given for n, given in zip(count, cycles, strict=True)):
-        raise UsageError("bounds are for whole numbers of cycles, from 1 on")
+    count = whole_cycles(cycles, faults, least=1)
+    faults.stop_if_any()
     lift = 0.0
     if scene.support is not None:
         lift = scene.contact.max_pressure_MPa / scene.support.stiffness_MPa_per_mm
@@ -150,7 +152,12 @@ class _Flow(NamedTuple):
         period, count = arb(load.period), PHASES if terms else 1
 
         def loads(turns: list[Ball]) -> Balls:
-            return np.array([_load(arb(mean) + lift, wave, turn) for turn in turns], dtype=object)
+            """Return U_a at the phases of half turns."""
+            waves = [
+                [c * (j * turn).cos_pi() + s * (j * turn).sin_pi() for j, c, s in wave]
+                for turn in turns
+            ]
+            return np.array([sum(each, arb(mean) + lift) for each in waves], dtype=object)
 
         return cls(
             module,
@@ -230,14 +237,6 @@ def _terms(load: Any) -> tuple[float, list[tuple[int, float, float]]]:
         terms = zip(map(int, orders), *waves, strict=True)
         return load.mean, [term for term in terms if any(term[1:])]
     raise UsageError("bounds cycle by cycle need a smooth periodic load; try static_bounds")
-
-
-def _load(mean: Ball, wave: list[tuple[int, Ball, Ball]], turn: Ball) -> Ball:
-    """Return U_a at the phase turn/2."""
-    return sum(
-        (c * (j * turn).cos_pi() + s * (j * turn).sin_pi() for j, c, s in wave),
-        mean,
-    )
 
 
 def _run(flow: _Flow, cycles: Sequence[int], upper: bool) -> dict[int, float]:

@@ -77,10 +77,10 @@ def _mesh(scene: Scene) -> Mesh:
 
 
 def _wear_rate_per_pressure(model: Model, scene: Scene) -> float:
-    """Return the wear rate per pressure, Eq. (5), in mm/s per MPa, from those at zero closure."""
-    closed = np.array(scene.closure)
-    rate, pressure = model.rate(np.array(0.0), closed), model.fields(np.array(0.0), closed).p
-    return float(rate) / float(pressure)
+    """Return the wear rate per pressure, Eq. (5), in mm/s per MPa, from those at zero closure, or
+    under a force of 1 N."""
+    load = np.array(1.0 if scene.given_load else scene.closure)
+    return float(model.rate(np.array(0.0), load)) / float(model.fields(np.array(0.0), load).p)
 
 
 class _OnMesh(NamedTuple):
@@ -149,7 +149,7 @@ def _mean(
     last = len(over.edges) - 1
     increment = part.u[:, last] - part.u[:, 0]
     by_wear, by_rule = increment / wear_per_pressure, p.nodes @ over.rule.weights @ over.lengths
-    with np.errstate(invalid="ignore"):  # an unknown error of no wear
+    with np.errstate(invalid="ignore", over="ignore"):  # an unknown error, of no wear perhaps
         wear_error = (part.error + ROUNDOFF) * part.u[:, last] / wear_per_pressure
     return np.where(wear_error < rule_error, by_wear, by_rule)
 

@@ -35,7 +35,7 @@ from wear.orbit.segments import Orbit, joined, orbit
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
 from wear.request import checked_scenes, wear_depths, whole_cycles
-from wear.resampling import Resampling, resampled
+from wear.resampling import Resampling, resampled, unmerged
 from wear.scene import Scene
 from wear.scene_orbit import IDLES, End, SceneOrbit
 
@@ -253,7 +253,8 @@ def sweep(
     """
     faults = Faults()
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    fewer = [resampled(scene, rtol) for scene in checked_scenes(scenes, rtol, faults)]
+    known = checked_scenes(scenes, rtol, faults)
+    fewer = [resampled(scene, rtol) for scene in known]
     last = float(np.max(numbers, initial=0.0))
 
     def together(group: Sequence[Scene]) -> ValueAndError:
@@ -265,6 +266,11 @@ def sweep(
     u, error = _in_groups(fewer, len(numbers), together, alone, progress)
     for row, resampling in enumerate(fewer):
         error[row] += resampling.wear_error(u[row])
+    # Where wear accelerates, the error by merged rows grows.
+    again = [row for row, each in enumerate(fewer) if each.error and not max(error[row]) <= rtol]
+    if again:
+        whole = [unmerged(known[row]) for row in again]
+        u[again], error[again] = _in_groups(whole, len(numbers), together, alone, progress)
     return Sweep(u, error)
 
 

@@ -78,27 +78,31 @@ class GivenLoad(Model):
         return self.fields_under(self.pressure(u, R_a), u, R_a)
 
     def fields_under(self, p: Real, u: Real, R_a: Real) -> Fields:
-        return super().fields_under(p, u, self.displacement(u, R_a))
+        return self._closed(self._resting(p, u))
 
     def displacement(self, u: Real, R_a: Real) -> Real:
         """Return the displacement U_a in mm that causes the reaction; NaN for a zero reaction,
         since the contact law never vanishes."""
-        p = self.pressure(u, R_a)
-        resting = super().fields_under(p, u, 0.0 * p)
-        ratio = _increasing_root(
-            lambda ratio, p, u, h, sigma, *constants: self.module.residual(
-                p, u, h - ratio * sigma, type(self.constants)(*constants)
-            ),
-            (p, u, resting.h, resting.sigma, *self.constants),
-        )
-        return np.where(p > 0.0, resting.h - ratio * resting.sigma, np.nan)
+        resting = self._resting(self.pressure(u, R_a), u)
+        return resting.h - self._closed(resting).h
 
+    def _resting(self, p: Real, u: Real) -> Fields:
+        """Return the fields without displacement of the pin, whose closure is too large by U_a."""
+        return super().fields_under(p, u, 0.0 * p)
 
-def _increasing_root(function: Callable[..., Real], arguments: tuple[Real, ...]) -> Real:
-    """Return the root of an increasing function of one variable of order 1, for broadcast
-    `arguments`; NaN without a root."""
-    from scipy.optimize.elementwise import bracket_root, find_root
+    def _closed(self, resting: Fields) -> Fields:
+        """Return fields with the closure at which the contact law has their pressure: a difference
+        of wear and displacement would lose its digits where the wear is deep."""
+        from scipy.optimize.elementwise import bracket_root, find_root
 
-    with np.errstate(all="ignore"):
-        bracket = bracket_root(function, 0.0, 4.0, args=arguments).bracket
-        return find_root(function, bracket, args=arguments).x
+        level = self.constants._replace(h_0=0.0 * self.constants.h_0, compliance=0.0)
+        initial = self.module.fields(0.0, 0.0, 0.0, level).sigma
+
+        def residual(ratio: Real, p: Real, initial: Real, *constants: Real) -> Real:
+            return self.module.residual(p, 0.0, -ratio * initial, type(level)(*constants))
+
+        known = resting.p, initial, *level
+        with np.errstate(all="ignore"):  # NaN without a root
+            bracket = bracket_root(residual, 0.0, 4.0, args=known).bracket
+            ratio = find_root(residual, bracket, args=known).x
+        return resting._replace(h=np.where(resting.p > 0.0, ratio * resting.sigma, np.nan))

@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 from wear import history_files
 from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
+from wear.generated import reaction
+from wear.given_load import GivenLoad
 from wear.history_files import States
+from wear.load.spans import span
 from wear.numerics.gauss import FloatArray
 from wear.quantities import COLUMNS, columns_of, unit_of
 from wear.scene import Scene
-from wear.states import displacement_of, friction_work, reaction_of, sliding_distance
 
 if TYPE_CHECKING:
     import pandas
@@ -97,12 +99,16 @@ class History:
     def R_a(self) -> FloatArray | None:
         """Return the reaction force on the pin in N, None unless the scene has the contact's width
         and length."""
-        return reaction_of(self.definition, self.p)
+        return self._on_area(self.p)
 
     @cached_property
     def U_a(self) -> FloatArray | None:
         """Return the displacement of the pin in mm where the load is a force, else None."""
-        return displacement_of(self.definition, self.u_c)
+        model = bind(self.definition)
+        if not isinstance(model, GivenLoad):
+            return None
+        force = np.full(self.u_c.shape, float(self.definition.periodic_load(0.0)))
+        return np.asarray(model.displacement(self.u_c, force))
 
     @cached_property
     def pressures(self) -> CyclePressures:
@@ -122,19 +128,36 @@ class History:
     def columns(self) -> dict[str, FloatArray]:
         """Return the quantities along `cycles` by their names in files and JSON, in that order."""
         peak, mean, fraction = self.pressures
-        scene, cycles = self.definition, self.cycles.tolist()
-        work = friction_work(scene, cycles, mean)
         columns = columns_of(self) | {
             "peak_pressure_MPa": peak,
             "mean_pressure_MPa": mean,
             "contact_fraction": fraction,
-            "peak_pin_reaction_N": reaction_of(scene, peak),
-            "mean_pin_reaction_N": reaction_of(scene, mean),
-            "sliding_distance_mm": None if work is None else sliding_distance(scene, cycles),
-            "friction_work_mJ_per_mm2": work,
-            "friction_work_mJ": None if work is None else reaction_of(scene, work),
+            "peak_pin_reaction_N": self._on_area(peak),
+            "mean_pin_reaction_N": self._on_area(mean),
         }
+        if (friction := self.definition.contact.friction_coefficient) is not None:
+            distance = self._sliding_distance()
+            work = np.asarray(reaction.friction_work(mean, distance, friction))
+            columns |= {
+                "sliding_distance_mm": distance,
+                "friction_work_mJ_per_mm2": work,
+                "friction_work_mJ": self._on_area(work),
+            }
         return {name: columns[name] for name in COLUMNS if columns.get(name) is not None}
+
+    def _on_area(self, values: FloatArray) -> FloatArray | None:
+        """Return values per area of the contact times its area, None if that is unknown."""
+        contact = self.definition.contact
+        if contact.width_mm is None or contact.length_mm is None:
+            return None
+        return np.asarray(reaction.reaction(values, b=contact.width_mm, L=contact.length_mm))
+
+    def _sliding_distance(self) -> FloatArray:
+        """Return the sliding distance in mm in the cycle that ends after each of the `cycles`."""
+        motion, ended = self.definition.motion, np.maximum(self.cycles - 1, 0).tolist()
+        periods = np.array([span(self.definition.load, cycle).load.period for cycle in ended])
+        distance = reaction.sliding_distance(R=motion.radius_mm, T=periods, n=motion.speed_rpm)
+        return np.where(self.cycles > 0, distance, np.nan)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a row for each number of cycles, with the columns of the files; needs pandas."""
@@ -191,7 +214,8 @@ class History:
             "cycles": self.cycles.tolist(),
         }
         lists = dict.fromkeys(ALWAYS, [None] * len(self.cycles)) | {
-            name: _finite(values) for name, values in self.columns().items()
+            name: [value if np.isfinite(value) else None for value in values.tolist()]
+            for name, values in self.columns().items()
         }
         tail = {"cost": dict(self.cost), "seconds": self.seconds, "notices": list(self.notices)}
         return head | lists | tail
@@ -211,7 +235,7 @@ class History:
 
     def _attributes(self) -> history_files.Attributes:
         return {
-            "title": json.dumps(self.scene, ensure_ascii=True).strip('"') or "untitled",
+            "title": history_files.title_attribute(self.scene),
             "scene": self.definition.to_json(),
             "variant": self.variant,
             "operations": json.dumps(dict(self.operations)),
@@ -221,7 +245,3 @@ class History:
             "seconds": repr(self.seconds),
             "notices": json.dumps(self.notices),
         }
-
-
-def _finite(values: FloatArray) -> list[float | None]:
-    return [value if np.isfinite(value) else None for value in values.tolist()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -20,6 +21,15 @@ Attributes = Mapping[str, str]
 """The description of a result, each value in one line and none empty."""
 
 _NUMBER_OF_RECORDS = 4  # its place in a NetCDF-3 file, after "CDF" and the version
+
+
+def title_attribute(title: str) -> str:
+    """Return the title of a result in ASCII, all that NetCDF-3 has.
+
+    >>> title_attribute("Prüfstand"), title_attribute("")
+    ('Pr\\\\u00fcfstand', 'untitled')
+    """
+    return json.dumps(title, ensure_ascii=True).strip('"') or "untitled"
 
 
 class States(NamedTuple):

@@ -67,8 +67,8 @@ def cells_of(line: str, delimiter: str) -> list[str]:
 
 def number_in(cell: str, decimal: str) -> float:
     """Return the number of a cell, NaN if there is none. A point beside decimal commas is none: it
-    may separate thousands."""
-    if decimal == "," and "." in cell:
+    may separate thousands; nor is an underscore, which Python would overlook."""
+    if "_" in cell or (decimal == "," and "." in cell):
         return math.nan
     try:
         return float(cell.replace(decimal, "."))

@@ -10,17 +10,16 @@ from wear.equation import WearEquation
 from wear.faults import AccuracyError, UsageError
 from wear.load import HistoryLoad, Loading
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
-from wear.model import Fields, Model
+from wear.model import Model
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
-from wear.orbit.dense_output import DenseOutput, PhaseIncrements, dense_output
+from wear.orbit.dense_output import DenseOutput, dense_output
 from wear.orbit.iterates import Iterates
 from wear.quantities import columns_of
-from wear.states import fields_under_load
+from wear.states import fields_under_load, in_shape
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
-BATCH = 10_000  # cycles whose wear at the start is computed at once
 
 
 class Chunk(NamedTuple):
@@ -78,9 +77,8 @@ def fields_inside(
     for stage in stages(model, load, cycles[-1] + 1.0, rtol):
         for begin, end, output in _dense(model, stage, phases, rtol, cycles):
             covered = cycles[(cycles >= begin) & (cycles < end)]
-            part = _DensePart(model, stage, output, phases, begin)
-            for at in range(0, len(covered), BATCH):
-                yield from part.rows(covered[at : at + BATCH], rows, rtol)
+            for at in range(0, len(covered), rows):
+                yield _chunk(model, stage, begin, output, covered[at : at + rows], phases, rtol)
     if stage.ends <= cycles[-1]:
         raise AccuracyError(f"the wear after {stage.ends:.0f} cycles could not be found")
 
@@ -104,36 +102,27 @@ def _dense(
             yield begin, end, dense_output(equation, segment.iterates, phases, rtol, observable)
 
 
-class _DensePart(NamedTuple):
-    """A part of a stage, from the cycle `begins`, with the dense output at some `phases`."""
-
-    model: Model
-    stage: Stage
-    output: DenseOutput | SwitchedDenseOutput
-    phases: FloatArray
-    begins: float
-
-    def rows(self, cycles: FloatArray, at_once: int, rtol: float) -> Iterator[Chunk]:
-        """Yield the states in the `cycles` (n,), `at_once` at a time."""
-        # Where the wear rate rises or contact grazes, an error grows within the cycle.
-        ends = np.unique(np.concatenate([cycles, cycles + 1.0]))
-        wear, wear_error = self.stage.after(ends)
-        first, last = np.searchsorted(ends, cycles), np.searchsorted(ends, cycles + 1.0)
-        starts, wear_error = wear[first], np.maximum(wear_error[first], wear_error[last])
-        for at in range(0, len(cycles), at_once):
-            rows = slice(at, at + at_once)
-            added = self.output.added(cycles[rows] - self.begins, starts[rows])
-            u = starts[rows, None] + added.increment
-            absolute = wear_error[rows] + SAFETY * added.error
-            error = np.nan_to_num(absolute / (wear[last[rows]] + TINY), nan=np.inf)
-            yield Chunk(cycles[rows], self.phases, u, self.fields(u, added, rtol), error)
-
-    def fields(self, u: FloatArray, added: PhaseIncrements, rtol: float) -> Fields:
-        """Return all fields; on a compliant support from the interpolated pressure, if that is
-        accurate enough."""
-        load = self.stage.load
-        if added.observable is not None and np.max(added.observable_error) <= rtol:
-            return self.model.fields_under(added.observable, u, load(self.phases))
-        return fields_under_load(
-            self.model, u, load(self.phases), load.slope(self.phases) / load.period
-        )
+def _chunk(
+    model: Model,
+    stage: Stage,
+    begin: float,
+    output: DenseOutput | SwitchedDenseOutput,
+    cycles: FloatArray,
+    phases: FloatArray,
+    rtol: float,
+) -> Chunk:
+    """Return the states in some cycles of a stage, from the dense output at the `phases` of the
+    part that begins after `begin` cycles."""
+    ends, place = np.unique([cycles, cycles + 1.0], return_inverse=True)
+    wear, wear_error = (each[place.reshape(2, -1)] for each in stage.after(ends))
+    added = output.added(cycles - begin, wear[0])
+    u = wear[0][:, None] + added.increment
+    # Where the wear rate rises or contact grazes, an error grows within the cycle.
+    absolute = np.max(wear_error, axis=0) + SAFETY * added.error
+    error = np.nan_to_num(absolute / (wear[1] + TINY), nan=np.inf)
+    load = stage.load
+    if added.observable is not None and np.max(added.observable_error) <= rtol:
+        fields = in_shape(model.fields_under(added.observable, u, load(phases)), u.shape)
+    else:
+        fields = fields_under_load(model, u, load(phases), load.slope(phases) / load.period)
+    return Chunk(cycles, phases, u, fields, error)

@@ -55,8 +55,10 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
         return None
     assert iterates.density is not None
     panel = take(iterates.density, slice(-1, None))
-    if not _contact_lasts(scene, float(panel.grid.starts[0])):
-        return None
+    model, start = bind(scene), float(panel.grid.starts[0])
+    least = scene.periodic_load.minimum
+    if model.ends_at_3_sigma and not model.margin(start, least) > model.held_margin:
+        return None  # contact does not last throughout the cycle
     size = len(table.u) // len(iterates.density.series)  # cells of a panel
     # The count may begin within the panel.
     within = float(count_table(panel).cycles_at(table.u[[-size]])[0])
@@ -67,12 +69,3 @@ def offset(scene: Scene, rate: float, drift: float) -> Offset | None:
     error = rate * uncertain + ERROR_RATIO * abs(steady.drift - drift)
     known = np.isfinite(steady.offset) and error <= LARGEST_ERROR * abs(steady.offset)
     return Offset(steady.offset, error, steady) if known else None
-
-
-def _contact_lasts(scene: Scene, u: float) -> bool:
-    """Return whether contact by the law lasts throughout the cycle at the wear `u` (mm) and
-    beyond."""
-    model = bind(scene)
-    if not model.ends_at_3_sigma:
-        return True
-    return bool(model.margin(u, scene.periodic_load.minimum) > model.held_margin)

@@ -66,7 +66,9 @@ def follow(
             number += len(here)
             evaluations += part.evaluations
     except StoppedError as end:
-        stopped = _why(end.state, limit)
+        stopped = f"the wear could not be followed beyond u_c = {end.state:.6g} mm"
+        if end.state > NEARLY * limit:
+            stopped = f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
     except TimeoutError:
         stopped, interrupted = "the time limit has passed", True
     except KeyboardInterrupt:
@@ -75,10 +77,3 @@ def follow(
     relative = np.where(wear > 0.0, np.array(error) / wear + ROUNDOFF, 0.0)
     cost = Cost(2 * max(reached, default=0), evaluations)
     return Outcome(METHOD, reached, wear, relative, cost, (), stopped, interrupted)
-
-
-def _why(wear: float, limit: float) -> str:
-    """Return the reason why the wear could not be followed beyond a `wear` (mm)."""
-    if wear > NEARLY * limit:
-        return f"the roughness vanishes near u_c = {limit:.4g} mm: the model ends"
-    return f"the wear could not be followed beyond u_c = {wear:.6g} mm"

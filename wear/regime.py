@@ -27,6 +27,7 @@ import numpy as np
 from wear import own_laws
 from wear.binding import bind
 from wear.cycles import orbit_of_scene
+from wear.faults import AccuracyError
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
@@ -40,7 +41,11 @@ TOLERANCE = Decimal("1e-6")
 """The note's criterion: relative distance of the wear rate from its limit."""
 
 _DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
-_PHASES = 4096
+_DIGITS.traps[decimal.Overflow] = False  # infinity: the pressure of a gap beyond all bounds is zero
+_PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
+
+VANISHES = "the roughness vanishes in finite time; the model ends there"
+CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
 
 
 @dataclass(frozen=True)
@@ -136,6 +141,8 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     ------
     UsageError
         if the load does not repeat.
+    AccuracyError
+        if the constants of an extreme scene cannot be computed.
 
     >>> found = asymptote("section4")
     >>> found.regime, f"{found.wear_per_cycle_mm:.10e}"
@@ -143,10 +150,13 @@ def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
     """
     scene = as_scene(scene)
     with decimal.localcontext(_DIGITS):
-        case = _Case(scene)
-        if scene.given_load:
-            return _given_load(case)
-        return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
+        try:
+            case = _Case(scene)
+            if scene.given_load:
+                return _given_load(case)
+            return _with_cutoff(case) if scene.contact.ends_at_3_sigma else _without_cutoff(case)
+        except decimal.DecimalException as fault:
+            raise AccuracyError("asymptote: its constants are beyond all numbers") from fault
 
 
 def _result(case: _Case, regime: str, **found: Any) -> Asymptote:
@@ -158,7 +168,6 @@ def _given_load(case: _Case) -> Asymptote:
     """Return the asymptote of problem (i): the wear of every cycle is that of the mean pressure."""
     pressure = float(reaction.pressure(case.load.mean, b=case.numbers["b"], L=case.numbers["L"]))
     end = None if case.data["q"] >= 0 else case.vanishing
-    said = ("the roughness vanishes in finite time; the model ends there",) if end else ()
     return _result(
         case,
         "finite-time" if end else "steady",
@@ -167,7 +176,7 @@ def _given_load(case: _Case) -> Asymptote:
         log_coefficient_mm=0.0,
         offset_mm=0.0,
         saturation_wear_mm=float(end) if end else None,
-        notices=said,
+        notices=(VANISHES,) if end else (),
     )
 
 
@@ -181,8 +190,7 @@ def _without_cutoff(case: _Case) -> Asymptote:
     if case.value(formula.gap_at_peak, end) > 0:
         said = "wear approaches this depth, logarithmically slowly, as the roughness vanishes"
         return _result(case, "saturating", saturation_wear_mm=float(end), notices=(said,))
-    said = "the roughness vanishes in finite time; the model ends there"
-    return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(said,))
+    return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(VANISHES,))
 
 
 def steady_wear_per_cycle(scene: Scene) -> float:
@@ -195,9 +203,8 @@ def steady_wear_per_cycle(scene: Scene) -> float:
 
 def fresh_wear_per_cycle(scene: Scene) -> float:
     """Return the wear of the first cycle (mm) with the rate frozen at no wear."""
-    model, load = bind(scene), scene.periodic_load
-    phases = (np.arange(_PHASES) + 0.5) / _PHASES
-    return float(np.mean(model.rate(0.0, load(phases)))) * load.period
+    load = scene.periodic_load
+    return float(np.mean(bind(scene).rate(0.0, load(_PHASES)))) * load.period
 
 
 def _steady_pressure(case: _Case) -> Decimal:
@@ -215,8 +222,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     mean = case.value(drift, steepness)
     extremes = [case.value(drift, steepness, U_mean=case.data[end]) for end in ("U_min", "U_max")]
     if case.data["g"] < 0:
-        said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
-        notices = (*notices, said)
+        notices = (*notices, CLOSES)
     tanh = case.scene.contact.law == "tanh"
     found = offset(case.scene, per_cycle, float(mean))
     if found is None:
@@ -265,11 +271,8 @@ def _constant_roughness(case: _Case) -> Asymptote:
         )
     if gap < 0:
         pressure = case.numbers["p_max"]
-        said = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
-        per_cycle = case.wear_at(pressure)
-        return _result(
-            case, "steady", wear_per_cycle_mm=per_cycle, pressure_MPa=pressure, notices=(said,)
-        )
+        steady = {"wear_per_cycle_mm": case.wear_at(pressure), "pressure_MPa": pressure}
+        return _result(case, "steady", **steady, notices=(CLOSES,))
     said = "wear changes neither closure nor roughness: every cycle is like the first"
     first = float(solve(case.scene, [1], rtol=1e-12).u_c[0])
     return _result(case, "steady", wear_per_cycle_mm=first, notices=(said,))
@@ -277,8 +280,7 @@ def _constant_roughness(case: _Case) -> Asymptote:
 
 def _log_load_factor(load: Load, sigma: float) -> float:
     """Return the logarithm of the mean of exp(4 U_a/sigma) over a period, without overflow."""
-    phases = (np.arange(_PHASES) + 0.5) / _PHASES
-    exponents = 4.0 * (load(phases) - load.maximum) / sigma
+    exponents = 4.0 * (load(_PHASES) - load.maximum) / sigma
     return 4.0 * load.maximum / sigma + math.log(float(np.mean(np.exp(exponents))))
 
 
@@ -303,8 +305,7 @@ def _with_cutoff(case: _Case) -> Asymptote:
 def _arrest_depth(case: _Case) -> float | None:
     """Return the wear at which the peak of the load no longer makes contact, if there is one."""
     data = case.data
-    model = bind(case.scene)
-    if model.margin(0.0, case.load.maximum) <= 0.0:
+    if bind(case.scene).margin(0.0, case.load.maximum) <= 0.0:
         return 0.0
     if data["kappa"] == 0 and data["sigma_a0"] == 0:
         falls = case.holds(formula.gap_outgrows_roughness)
@@ -325,12 +326,7 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
     if depth == 0.0:
         said = "the peak of the load never makes contact"
         return _result(case, "arrest", arrest_wear_mm=0.0, arrest_cycle=0, notices=(said,))
-    cycle = None
-    notices: tuple[str, ...] = ()
-    if case.scene.support is None:
-        cycle, notices = _arrest_cycle(case)
-    else:
-        notices = ("on a compliant support wear nears the depth of arrest without reaching it",)
+    cycle, notices = _arrest_cycle(case)
     return _result(
         case,
         "arrest",
@@ -344,6 +340,8 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
     """Return the cycle in which wear stops, None if it is unknown, and the notices."""
+    if case.scene.support is not None:
+        return None, ("on a compliant support wear nears the depth of arrest without reaching it",)
     orbit = orbit_of_scene(bind(case.scene), case.load, MOST_CYCLES, 1e-12)
     end = orbit.end
     if end is not None and end.way == FADES:
@@ -358,9 +356,7 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
 
 def _at_one_third(case: _Case) -> Asymptote:
     """Return the asymptote at f_c = 1/3: contact in a fixed part of every cycle."""
-    model = bind(case.scene)
-    phases = (np.arange(_PHASES) + 0.5) / _PHASES
-    part = float(np.mean(model.margin(0.0, case.load(phases)) >= 0.0))
+    part = float(np.mean(bind(case.scene).margin(0.0, case.load(_PHASES)) >= 0.0))
     pressure = float(_steady_pressure(case))
     return _result(
         case,

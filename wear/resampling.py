@@ -19,7 +19,7 @@ from wear.equation import WearEquation, growth
 from wear.load import ForceTable, Table
 from wear.model import Model
 from wear.numerics.floating_point import TINY
-from wear.numerics.gauss import FloatArray, Mesh, mesh
+from wear.numerics.gauss import FloatArray, mesh
 from wear.quantities import SMALLEST
 from wear.scene import Scene
 
@@ -120,14 +120,9 @@ def _changed(model: Model, load: LoadTable, fewer: LoadTable) -> float:
     wear."""
     equation = WearEquation(model, (load,))
     wears = np.minimum(float(equation.scale[0]) * WEARS, float(equation.limit[0]))
-    phases = mesh(np.append(load.kinks, 1.0), NODES)
-    exact, merged = (_increments(equation, each, wears, phases) for each in (load, fewer))
+    over = mesh(np.append(load.kinks, 1.0), NODES)
+    starts = wears[None, :, None, None]
+    rates = (equation.rate(starts, each(over.phases)[None, None])[0] for each in (load, fewer))
+    exact, merged = ((rate @ over.rule.weights) * over.lengths for rate in rates)
     difference = np.abs(np.cumsum(exact, axis=1) - np.cumsum(merged, axis=1))
     return float(np.max(np.max(difference, axis=1) / (np.sum(exact, axis=1) + TINY)))
-
-
-def _increments(equation: WearEquation, load: LoadTable, wears: FloatArray, on: Mesh) -> FloatArray:
-    """Return the wear (k, q) of every interval of phase at frozen `wears` (k,)."""
-    rate = equation.rate(wears[None, :, None, None], load(on.phases)[None, None])[0]
-    increments: FloatArray = (rate @ on.rule.weights) * on.lengths
-    return increments

@@ -8,7 +8,6 @@ import numpy as np
 
 from wear.binding import bind
 from wear.direct.loss_of_contact import pressure_share, roundoff
-from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.load.spans import span
 from wear.model import Fields, Model
@@ -25,24 +24,25 @@ def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) 
     return fields_under_load(model, u, U_a, rise)
 
 
+@np.errstate(invalid="ignore")  # beyond the wear at which the roughness vanishes
 def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatArray) -> Fields:
     """Return the fields under displacements (mm) that rise by `rise` (mm/s), all of which
     broadcast; at the edge of contact with the acting pressure."""
     fields = model.fields(u, U_a)
     if isinstance(model, GivenLoad) and not model.compliant:
-        return fields._replace(U_c=None)  # of the module for springs, here rigid ones
-    if not model.ends_at_3_sigma or model.compliant:
-        return fields
-    closed = model.fields(u, U_a + roundoff(model, u, U_a)).p
-    return fields._replace(p=closed * pressure_share(model, u, U_a, rise))
+        fields = fields._replace(U_c=None)  # of the module for springs, here rigid ones
+    elif model.ends_at_3_sigma and not model.compliant:
+        closed = model.fields(u, U_a + roundoff(model, u, U_a)).p
+        fields = fields._replace(p=closed * pressure_share(model, u, U_a, rise))
+    return in_shape(fields, np.broadcast_shapes(u.shape, U_a.shape))
 
 
-def displacement_of(scene: Scene, u: FloatArray) -> FloatArray | None:
-    """Return the displacement of the pin in mm at the ends of cycles, if the load is a force."""
-    model = bind(scene)
-    if not isinstance(model, GivenLoad):
-        return None
-    return np.asarray(model.displacement(u, np.full(u.shape, float(scene.periodic_load(0.0)))))
+def in_shape(fields: Fields, shape: tuple[int, ...]) -> Fields:
+    """Return fields with values for all states, also of one that does not change."""
+    return fields._make(
+        value if value is None or np.shape(value) == shape else np.full(shape, value)
+        for value in fields
+    )
 
 
 def notices_of_wear(scene: Scene, cycles: Sequence[int], u: FloatArray) -> tuple[str, ...]:
@@ -78,29 +78,3 @@ def negative_roughness(model: Model, fields: Fields, u: FloatArray) -> tuple[str
                 "the equation takes its square, but the model no longer applies"
             )
     return tuple(notices)
-
-
-def reaction_of(scene: Scene, pressure: FloatArray) -> FloatArray | None:
-    """Return the reaction force of the pin in N, if the scene has the size of the contact."""
-    numbers = scene.parameters()
-    if "b" not in numbers:
-        return None
-    return np.asarray(reaction.reaction(pressure, b=numbers["b"], L=numbers["L"]))
-
-
-def sliding_distance(scene: Scene, cycles: Sequence[int]) -> FloatArray:
-    """Return the sliding distance in mm in the cycle that ends after each of the `cycles`."""
-    loads = [span(scene.load, max(cycle - 1, 0)).load for cycle in cycles]
-    periods = np.array([load.period for load in loads])
-    numbers = scene.parameters()
-    distance = reaction.sliding_distance(R=numbers["R"], T=periods, n=numbers["n"])
-    return np.where(np.asarray(cycles) > 0, distance, np.nan)
-
-
-def friction_work(scene: Scene, cycles: Sequence[int], mean: FloatArray) -> FloatArray | None:
-    """Return the work of friction per area in mJ/mm^2 in the cycle that ends after each of the
-    `cycles`, under `mean` pressures in MPa, if the scene has a coefficient of friction."""
-    mu = scene.contact.friction_coefficient
-    if mu is None:
-        return None
-    return np.asarray(reaction.friction_work(mean, sliding_distance(scene, cycles), mu))

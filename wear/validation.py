@@ -9,20 +9,28 @@ Key results
     table       class decorator: a frozen dataclass whose construction raises `SceneError`
     Positive, NonNegative, Real, Count, Flag, Text     kinds of entries, with their words
     problems    the faults of tables, each with its path
-    all_wrong   the error for a validator that finds several faults
+    EntryError  the error for a validator to raise, with one fault or several
 """
 
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Set, Sized
+from functools import partial, wraps
+from itertools import islice
 from typing import Annotated, Any, ClassVar, TypeVar, dataclass_transform
 
-from pydantic import ConfigDict, Field, PlainValidator, ValidationError, model_validator
+from pydantic import (
+    ConfigDict,
+    Field,
+    PlainValidator,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 from pydantic.dataclasses import dataclass
-from pydantic_core import ArgsKwargs, InitErrorDetails, PydanticCustomError, core_schema
+from pydantic_core import ArgsKwargs
 
 from wear.faults import Fault, SceneError
 from wear.quantities import LARGEST, MOST_CYCLES, SMALLEST, unit_of
@@ -38,87 +46,70 @@ T = TypeVar("T")
 Path = tuple[str | int, ...]
 """The place of a value: ("bearing", "hardness_MPa"), ("load", "blocks", 0, "cycles")."""
 
-Finding = tuple[str | Path, str, str]
-"""A path, which may be dotted, the problem there, and its remedy."""
+Finding = tuple[Path, str, str]
+"""A path, the problem there, and its remedy."""
 
 
 # Kinds of entries
 
 
-def wrong(problem: str, remedy: str, path: str = "") -> ValidationError:
-    """Return the error for a validator to raise: the problem at a path, and its remedy."""
-    return all_wrong((path, problem, remedy))
+class EntryError(ValueError):
+    """The faults of an entry or a table, for a validator to raise: pydantic adds the place."""
+
+    def __init__(self, *findings: Finding) -> None:
+        super().__init__(*findings)
+        self.findings = findings
 
 
-def all_wrong(*faults: Finding) -> ValidationError:
-    """Return the error for a validator to raise, with several (path, problem, remedy)."""
-    details: list[InitErrorDetails] = [
-        {
-            "type": PydanticCustomError("wrong", "{problem}", {"problem": problem, "remedy": cure}),
-            "loc": path if isinstance(path, tuple) else tuple(filter(None, path.split("."))),
-            "input": None,
-        }
-        for path, problem, cure in faults
-    ]
-    return ValidationError.from_exception_data("wrong", details)
+def wrong(problem: str, remedy: str, path: str = "") -> EntryError:
+    """Return the error for a validator to raise: the problem at a dotted path, and its remedy."""
+    return EntryError((tuple(filter(None, path.split("."))), problem, remedy))
 
 
-def problems(error: ValidationError, place: Path = ()) -> list[tuple[Path, str, str]]:
+def problems(error: ValidationError, place: Path = ()) -> list[Finding]:
     """Return the faults of a table at a `place` of another, each with its path."""
     return [
-        ((*place, *entry["loc"]), entry["ctx"]["problem"], entry["ctx"]["remedy"])
+        ((*place, *entry["loc"], *path), problem, remedy)
         for entry in error.errors(include_url=False)
+        for path, problem, remedy in entry["ctx"]["error"].findings
     ]
 
 
-class EntryKind:
-    """The kind of an entry, for an annotation; its call returns the value or raises `wrong`."""
+def number(raw: Any, info: ValidationInfo, domain: str = "") -> float:
+    """Return a finite number of sane size, of a `domain`: '> 0', '>= 0' or '' for all."""
+    if type(raw) is float and _fits(raw, domain):
+        return raw
+    unit = unit_of(str(info.field_name))
+    ending = f", in {unit}" if unit else ""
+    if isinstance(raw, str):
+        remedy = f"give a number{ending}: no quotes, no unit, a point before the decimals"
+        raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
+    if hasattr(raw, "tolist"):  # NumPy's scalars
+        raw = raw.tolist()
+    if isinstance(raw, bool) or not hasattr(raw, "__float__"):
+        raise wrong(f"is {kind_of(raw)}", f"give a number{ending}")
+    wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
+    try:
+        value = float(raw)
+    except OverflowError:
+        raise wrong("is a whole number too large for a float", wanted) from None
+    except (TypeError, ValueError):  # of a symbol, or of a number without a value
+        raise wrong(f"is {kind_of(raw)}", wanted) from None
+    if _fits(value, domain):
+        return value
+    if not math.isfinite(value):
+        raise wrong(f"{value} is not a finite number", wanted)
+    if value < 0.0 and domain:
+        raise wrong(f"{value!r} is negative", wanted)
+    if value == 0.0:
+        raise wrong("is zero", wanted)
+    raise wrong(f"{value!r} is out of range", f"{wanted}; {BOUNDS}")
 
-    def __call__(self, raw: Any, key: str) -> Any:
-        raise NotImplementedError
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
-        key = str(handler.field_name)
-        return core_schema.no_info_plain_validator_function(lambda raw: self(raw, key))
-
-
-@dataclasses.dataclass(frozen=True)
-class Number(EntryKind):
-    """A finite number of sane size, of a `domain`: '> 0', '>= 0' or '' for all."""
-
-    domain: str = ""
-
-    def __call__(self, raw: Any, key: str) -> float:
-        if type(raw) is float and self._fits(raw):
-            return raw
-        unit, domain = unit_of(key), self.domain
-        ending = f", in {unit}" if unit else ""
-        if isinstance(raw, str):
-            remedy = f"give a number{ending}: no quotes, no unit, a point before the decimals"
-            raise wrong(f'"{shown(raw)}" is text, not a number', remedy)
-        if hasattr(raw, "tolist"):  # NumPy's scalars
-            raw = raw.tolist()
-        if isinstance(raw, bool) or not hasattr(raw, "__float__"):
-            raise wrong(f"is {kind_of(raw)}", f"give a number{ending}")
-        wanted = f"give a number {domain}{ending}" if domain else f"give any finite number{ending}"
-        try:
-            number = float(raw)
-        except OverflowError:
-            raise wrong("is a whole number too large for a float", wanted) from None
-        if self._fits(number):
-            return number
-        if not math.isfinite(number):
-            raise wrong(f"{number} is not a finite number", wanted)
-        if number < 0.0 and domain:
-            raise wrong(f"{number!r} is negative", wanted)
-        if number == 0.0:
-            raise wrong("is zero", wanted)
-        raise wrong(f"{number!r} is out of range", f"{wanted}; {BOUNDS}")
-
-    def _fits(self, number: float) -> bool:
-        if number == 0.0:
-            return self.domain != "> 0"
-        return is_sane(number) and (number > 0.0 or not self.domain)
+def _fits(value: float, domain: str) -> bool:
+    if value == 0.0:
+        return domain != "> 0"
+    return is_sane(value) and (value > 0.0 or not domain)
 
 
 def is_sane(number: float) -> bool:
@@ -126,60 +117,40 @@ def is_sane(number: float) -> bool:
     return number == 0.0 or SMALLEST <= abs(number) <= LARGEST
 
 
-@dataclasses.dataclass(frozen=True)
-class Numbers(EntryKind):
-    """A list of at most `most` numbers."""
-
-    most: int = 1_000_000
-
-    def __call__(self, raw: Any, key: str) -> tuple[float, ...]:
-        if hasattr(raw, "tolist"):  # NumPy's arrays
-            raw = raw.tolist()
-        if not isinstance(raw, Iterable) or isinstance(raw, str | bytes | Mapping):
-            remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
-            raise wrong(f"is {kind_of(raw)}", remedy)
-        given: tuple[Any, ...] = tuple(raw)
-        if len(given) > self.most:
-            raise wrong(f"has {len(given)} entries", f"give at most {self.most}")
-        if all(type(entry) is float and is_sane(entry) for entry in given):
-            return given
-        values, faults = list[float](), list[Finding]()
-        for place, entry in enumerate(given, start=1):
-            try:
-                values.append(Number()(entry, key))
-            except ValidationError as error:
-                [(path, problem, remedy)] = problems(error)
-                faults.append((path, f"entry {place}: {problem}", remedy))
-        if faults:
-            raise all_wrong(*faults)
-        return tuple(values)
+def numbers(raw: Any, info: ValidationInfo, most: int = 1_000_000) -> tuple[float, ...]:
+    """Return a list of at most `most` numbers."""
+    if hasattr(raw, "tolist"):  # NumPy's arrays
+        raw = raw.tolist()
+    if not isinstance(raw, Iterable) or isinstance(raw, str | bytes | Mapping | Set):
+        remedy = "give a list of numbers in brackets, such as [1e-4, 2e-5]"
+        raise wrong(f"is {kind_of(raw)}", remedy)
+    given: tuple[Any, ...] = tuple(islice(raw, most + 1))
+    if len(given) > most:
+        size = len(raw) if isinstance(raw, Sized) else "too many"
+        raise wrong(f"has {size} entries", f"give at most {most}")
+    if all(type(entry) is float and is_sane(entry) for entry in given):
+        return given
+    values, faults = list[float](), list[Finding]()
+    for place, entry in enumerate(given, start=1):
+        try:
+            values.append(number(entry, info))
+        except EntryError as error:
+            [(path, problem, remedy)] = error.findings
+            faults.append((path, f"entry {place}: {problem}", remedy))
+    if faults:
+        raise EntryError(*faults)
+    return tuple(values)
 
 
-@dataclasses.dataclass(frozen=True)
-class Words(EntryKind):
-    """At most `most` printable characters, in one line or in several."""
-
-    most: int = 200
-    lines: bool = False
-
-    def __call__(self, raw: Any, key: str) -> str:
-        if not isinstance(raw, str):
-            raise wrong(f"is {kind_of(raw)}", f'give text in quotes: {key} = "..."')
-        if len(raw) > self.most:
-            raise wrong(f"has {len(raw)} characters", f"give at most {self.most}")
-        if not (raw.replace("\n", "") if self.lines else raw).isprintable():
-            raise wrong("has control characters", "use printable characters only")
-        return raw
-
-
-@dataclasses.dataclass(frozen=True)
-class OneOf(EntryKind):
-    """One of some names."""
-
-    names: Collection[str]
-
-    def __call__(self, raw: Any, key: str) -> str:
-        return choice(raw, self.names)
+def words(raw: Any, info: ValidationInfo, most: int = 200, lines: bool = False) -> str:
+    """Return a text of at most `most` printable characters, in one line or in several."""
+    if not isinstance(raw, str):
+        raise wrong(f"is {kind_of(raw)}", f'give text in quotes: {info.field_name} = "..."')
+    if len(raw) > most:
+        raise wrong(f"has {len(raw)} characters", f"give at most {most}")
+    if not (raw.replace("\n", "") if lines else raw).isprintable():
+        raise wrong("has control characters", "use printable characters only")
+    return raw
 
 
 def choice(raw: object, known: Collection[str], path: str = "") -> str:
@@ -192,6 +163,11 @@ def choice(raw: object, known: Collection[str], path: str = "") -> str:
     if meant := did_you_mean(raw, known):
         remedy = f"did you mean {meant}? C{remedy[1:]}"
     raise wrong(f'"{shown(raw)}" is unknown', remedy, path)
+
+
+def one_of(names: Collection[str]) -> PlainValidator:
+    """Return the kind of an entry that is one of some names."""
+    return PlainValidator(partial(choice, known=names))
 
 
 def _whole(raw: object) -> int:
@@ -211,14 +187,14 @@ def _true_or_false(raw: object) -> bool:
     return raw
 
 
-Positive = Annotated[float, Number("> 0")]
-NonNegative = Annotated[float, Number(">= 0")]
-Real = Annotated[float, Number()]
-Reals = Annotated[tuple[float, ...], Numbers()]
+Positive = Annotated[float, PlainValidator(partial(number, domain="> 0"))]
+NonNegative = Annotated[float, PlainValidator(partial(number, domain=">= 0"))]
+Real = Annotated[float, PlainValidator(number)]
+Reals = Annotated[tuple[float, ...], PlainValidator(numbers)]
 Count = Annotated[int, PlainValidator(_whole)]
 Flag = Annotated[bool, PlainValidator(_true_or_false)]
-Text = Annotated[str, Words()]
-Prose = Annotated[str, Words(2000, lines=True)]
+Text = Annotated[str, PlainValidator(words)]
+Prose = Annotated[str, PlainValidator(partial(words, most=2000, lines=True))]
 
 
 # Tables
@@ -239,7 +215,7 @@ class SceneTable:
 
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:  # noqa: ARG003
-        """Yield (key, problem, remedy) for inconsistent entries, which are not yet validated."""
+        """Yield (path, problem, remedy) for inconsistent entries, which are not yet validated."""
         yield from ()
 
     @model_validator(mode="wrap")
@@ -267,22 +243,23 @@ class SceneTable:
         meant = {key for key, _ in reported} - {""}
         faults = [finding for _, finding in reported]
         if len(unknown) > len(reported):
-            faults.append(("", "more unknown keys", f"known here: {', '.join(cls.entries)}"))
+            faults.append(((), "more unknown keys", f"known here: {', '.join(cls.entries)}"))
         try:
             instance = build({key: value for key, value in given.items() if key in known})
         except ValidationError as error:
             for entry in error.errors(include_url=False):
-                name = str(entry["loc"][0])
-                if entry["type"] == "wrong":
-                    faults.append((entry["loc"], entry["ctx"]["problem"], entry["ctx"]["remedy"]))
-                elif name not in cls.entries:
-                    faults.append((name, entry["msg"], "give the name of a scene and its folder"))
-                elif name not in meant:
-                    faults.append(((name,), "missing", _remedy_if_missing(cls, name)))
+                where = entry["loc"]
+                if entry["type"] == "value_error":
+                    for path, problem, remedy in entry["ctx"]["error"].findings:
+                        faults.append(((*where, *path), problem, remedy))
+                elif where[0] not in cls.entries:
+                    faults.append((where, entry["msg"], "give the name of a scene and its folder"))
+                elif where[0] not in meant:
+                    faults.append((where, "missing", _remedy_if_missing(cls, str(where[0]))))
         present = {key: entry for key, entry in given.items() if entry is not None}
         faults += cls.relations(dict.fromkeys(meant, ...) | present)
         if faults:
-            raise all_wrong(*faults)
+            raise EntryError(*faults)
         return instance
 
 
@@ -301,7 +278,7 @@ def table(place: str, kind: str = "") -> Callable[[type[T]], type[T]]:
         checked.entries = {name: entry for name, entry in fields.items() if not entry.exclude}
         checked_init = checked.__init__
 
-        @functools.wraps(checked_init)
+        @wraps(checked_init)
         def init(self: T, *args: Any, **entries: Any) -> None:
             try:
                 checked_init(self, *args, **entries)

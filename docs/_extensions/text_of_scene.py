@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -10,7 +11,7 @@ from wear.load.blocks import Block
 from wear.load.conversion import KINDS, PERIODIC
 from wear.quantities import unit_of
 from wear.scene import Scene
-from wear.validation import TABLES, EntryKind, SceneTable
+from wear.validation import TABLES, SceneTable
 
 _SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")
 _WORDS = {"max": r"\max"}
@@ -80,11 +81,12 @@ def _typeset(meaning: str) -> str:
 
 def _value(name: str, field: Any) -> str:
     inner = [each for part in get_args(field.annotation) for each in get_args(part)[1:]]
-    found = next((each for each in (*field.metadata, *inner) if isinstance(each, EntryKind)), None)
-    if choices := getattr(found, "names", ()):
+    kinds = [getattr(each, "func", None) for each in (*field.metadata, *inner)]
+    options: dict[str, Any] = next((k.keywords for k in kinds if isinstance(k, partial)), {})
+    if choices := options.get("known"):
         return ", ".join(f'`"{choice}"`' for choice in choices)
     kind, unit = _kind(field.annotation), unit_of(name)
-    if domain := getattr(found, "domain", ""):
+    if domain := options.get("domain"):
         return f"{kind} {domain}{unit and ' '}{unit}"
     return f"{kind}{unit and ', '}{unit}"
 

@@ -1,5 +1,7 @@
 """Rigorous bounds: they contain references and solutions, and are as tight as promised."""
 
+import math
+
 import pytest
 import sympy as sp
 from hypothesis import given, settings
@@ -88,12 +90,16 @@ def test_a_larger_load_never_gives_less_wear(amplitude, pin):
     assert contains(static, float(solve(scene, [2], rtol=1e-9).u_c[0]))
 
 
-@pytest.mark.parametrize("cycles", [[0], [1.5], [-1]])
+@pytest.mark.parametrize("cycles", [[0], [1.5], [-1], [math.nan], ["a"], None])
 def test_only_whole_cycles(cycles):
-    with pytest.raises(UsageError, match="whole numbers"):
+    with pytest.raises(UsageError, match="whole number"):
         wear_bounds(made(), cycles)
 
 
 def test_what_has_no_bounds_is_told():
     with pytest.raises(UsageError, match="does not end at 3 sigma"):
         wear_bounds(made(cutoff=True), [1])
+    force = {"kind": "force", "force_N": 10.0, "period_s": 1.0}
+    area = {"contact.width_mm": 1.0, "contact.length_mm": 1.0}
+    with pytest.raises(UsageError, match="a given displacement"):
+        wear_bounds(made().with_({"load": force, **area}), [1])

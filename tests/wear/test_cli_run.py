@@ -157,6 +157,7 @@ def test_states_inside_the_cycles_are_written(run, tmp_path):
 
     path = tmp_path / "inside.nc"
     request = ("section4", "--cycles", "0,10,9000", "--phases", "4", "-o", str(path))
+    request += ("--set", "title=Ω, µm")  # more than ASCII, which NetCDF-3 does not have
     status, shown, messages = run(*request, "--json")
     document = json.loads(shown)
     assert (status, messages) == (0, "")

@@ -77,6 +77,21 @@ def test_closure_and_displacement_are_those_of_problem_i() -> None:
         assert claim.lhs in (symbol("h"), symbol("U_a"))
 
 
+def test_pressures_are_known_at_a_closure_of_zero() -> None:
+    history = wear.solve(pressed().with_({"contact.closure_mm": 0.0}), [3])
+    assert history.pressures.mean == pytest.approx([5.0], rel=1e-12)
+    assert history.pressures.peak == pytest.approx([5.0], rel=1e-12)
+
+
+def test_the_closure_under_deep_wear_keeps_its_digits() -> None:
+    """It is known from the pressure alone; wear less displacement had one digit here."""
+    scene = pressed().with_({"bearing.roughness_growth": 0.0, "bearing.roughness_mm": 1e-8})
+    history = wear.solve(scene.with_({"contact.closure_mm": 1e-8}), [1, 10**12])
+    assert history.u_c[1] > 1e10 * 1e-8
+    ratio = 2.0 + math.log(300.0 / 5.0 - 1.0) / 4.0
+    assert history.h == pytest.approx([ratio * 1e-8] * 2, rel=1e-13)
+
+
 def test_the_displacement_brings_the_force_about() -> None:
     scene = pressed("section3")
     u, force = np.array([0.0, 1e-3]), np.array([50.0, 100_000.0])

@@ -17,7 +17,7 @@ from wear.history_files import States, write
 from wear.inside import fields_inside
 from wear.load import Block, Blocks, Constant, Sine, Table
 from wear.quantities import unit_of
-from wear.scene import Scene
+from wear.scene import Scene, load_scene
 from wear.solver import solve
 
 from .reference_scenes import REFERENCE, made, reference_scene
@@ -44,6 +44,22 @@ def test_requests_are_answered_in_their_order(section3):
     assert section3.cycles.tolist() == [10, 0, 1, 10]
     expected = [REFERENCE["S1"][10], 0.0, REFERENCE["S1"][1], REFERENCE["S1"][10]]
     np.testing.assert_allclose(section3.u_c, expected, rtol=1e-8)
+
+
+@pytest.mark.parametrize("springs", [None, {"stiffness_MPa_per_mm": 1e5}])
+def test_the_constant_roughness_of_a_pin_that_does_not_wear_is_a_column(tmp_path, springs):
+    pin = {"hardness_MPa": 600.0, "wear_coefficient": 0.0, "roughness_mm": 6.5e-5}
+    pin["roughness_growth"] = 0.0
+    scene = load_scene("section4").with_({"pin": pin, "support": springs})
+    history = solve(scene, [1, 10], rtol=1e-6)
+    assert history.as_json()["pin_roughness_mm"] == [6.5e-5] * 2
+    for name in ("a.nc", "a.csv"):
+        history.write(tmp_path / name)
+    with netcdf_file(tmp_path / "a.nc", mmap=False) as file:
+        assert file.variables["pin_roughness_mm"][:].tolist() == [6.5e-5] * 2
+    assert history.to_dataframe()["pin_roughness_mm"].tolist() == [6.5e-5] * 2
+    (part,) = fields_inside(bind(scene), scene.load, np.arange(2.0), np.arange(3) / 3)
+    assert part.fields.sigma_a.shape == (2, 3)
 
 
 def test_the_fields_are_those_of_the_equations(section3):

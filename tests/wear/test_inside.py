@@ -11,7 +11,6 @@ from numpy.testing import assert_allclose
 
 from tests.judges import static_wear
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
-from wear import inside
 from wear.binding import bind
 from wear.cycles import orbit_of_scene, wear_after
 from wear.equation import equation_of
@@ -99,8 +98,7 @@ def test_the_interpolated_pressure_is_the_root(name: str) -> None:
     assert_allclose(found.fields.h, expected.h, rtol=1e-13)
 
 
-def test_memory_is_bounded_by_the_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(inside, "BATCH", 200)
+def test_memory_is_bounded_by_the_chunk() -> None:
     scene = reference_scene("S2")
     model, load, phases = bind(scene), scene.periodic_load, np.linspace(0.0, 1.0, 50)
     peaks = []

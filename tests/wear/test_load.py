@@ -246,6 +246,9 @@ def test_a_cycle_of_a_history_is_a_load():
     phases = np.array([0.0, 0.5, 1.0])
     np.testing.assert_allclose(window(phases), RECORD(1.0 + 0.5 * phases), rtol=1e-15)
     assert (window.period, window.maximum) == (0.5, 2e-4)
+    after = span(RECORD, 8).load  # beyond the last row nothing changes
+    assert after(0.0) == RECORD(4.0)
+    assert after.slope(0.0) == RECORD.slope(4.0) * 0.5
     assert span(RECORD, 7).until == most_cycles(RECORD) == 8
 
 

@@ -120,6 +120,12 @@ def test_every_scene_has_an_answer(name):
     assert asymptote(name).regime in regimes
 
 
+def test_a_gap_that_opens_a_billion_times_faster_than_roughness_grows():
+    """exp(4 h/sigma) overflows even decimals of any exponent."""
+    found = asymptote(load_scene("section4", ["bearing.roughness_growth=1e-20"]))
+    assert (found.regime, found.wear_per_cycle_mm) == ("steady", 0.0)
+
+
 def test_thresholds():
     assert formula.slope_threshold(epsilon=1 / (1 + math.exp(24))) == pytest.approx(
         0.125, rel=1e-14

@@ -1,5 +1,6 @@
 """Rows of a measured load that are merged: what is left, and that the error is known."""
 
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 import wear
 from tests.wear.reference_scenes import made
 from wear.cycles import cycles_to_depth, sweep
+from wear.orbit import period_map
 from wear.resampling import resampled
 
 ROWS = 801
@@ -95,6 +97,34 @@ def test_rows_are_kept_where_wear_accelerates_beyond_their_error(tmp_path):
     assert resampled(scene, 1e-3).error > 0.0
     found = wear.solve(scene, [10**6, 10**10], 1e-3)
     assert [notice for notice in found.notices if "are kept" in notice]
+
+
+def test_a_sweep_keeps_the_rows_of_just_the_scenes_that_need_them(tmp_path):
+    calm = measured(tmp_path)
+    accelerating = calm.with_({"contact.closure_mm": 2.5e-3})
+    cycles = [10**6, 10**10]
+    found = sweep([calm, accelerating], cycles, 1e-3)
+    assert np.all(found.error <= 1e-3)
+    assert found.error[0, 1] > 1e-9 > found.error[1, 1]
+    exact = wear.solve(accelerating.with_({"load.resample": False}), cycles)
+    assert np.all(np.abs(found.u_c[1] / exact.u_c - 1.0) <= found.error[1] + exact.error)
+
+
+def test_all_rows_of_a_long_record_take_little_memory(tmp_path, monkeypatch):
+    scene = measured(tmp_path, resample=False)
+
+    def run() -> tuple[wear.History, int]:
+        tracemalloc.start()
+        history = wear.solve(scene, [1, 10**6])
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return history, peak
+
+    at_once, large = run()
+    monkeypatch.setattr(period_map, "MOST_AT_ONCE", ROWS * 30)
+    in_parts, small = run()
+    assert small < large / 2
+    assert np.all(np.abs(in_parts.u_c / at_once.u_c - 1.0) <= in_parts.error + at_once.error)
 
 
 def test_cycles_to_a_depth_are_counted_with_the_merged_rows(tmp_path):

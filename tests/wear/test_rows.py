@@ -4,13 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from wear.faults import SceneError
 from wear.load import Table, csv_file
 from wear.load.csv_file import TableFile, read_rows
 from wear.scene import Scene, load_scene
-from wear.validation import problems
+from wear.validation import EntryError
 
 HEAD = "t_s,U_a_mm\n"
 
@@ -19,14 +18,14 @@ HEAD = "t_s,U_a_mm\n"
     ("cell", "number"),
     [("-0", 0.0), ("+2", 2.0), (" 3 ", 3.0), ("4E0", 4.0), ('"6"', 6.0), ("8\r", 8.0),
      *((wrong, None) for wrong in ("nan", "inf", "1e-31", "1e31", "x", "", "5#", "0x7", "1d2",
-                                   "1j", "1 2", "1,2"))],
+                                   "1j", "1 2", "1,2", "1_0"))],
 )  # fmt: skip
 def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
     (tmp_path / "a.csv").write_bytes(f"{HEAD}0,5\n1,{cell}\n".encode())
     if number is None:
-        with pytest.raises(ValidationError) as caught:
+        with pytest.raises(EntryError) as caught:
             read_rows(TableFile("a.csv"), tmp_path)
-        ((_, problem, _),) = problems(caught.value)
+        ((_, problem, _),) = caught.value.findings
         wrong = f'"1,{cell}" has 3 cells, the header 2' if "," in cell else f'U_a_mm is "{cell}"'
         assert problem == f"a.csv line 3: {wrong}"
     else:
@@ -35,7 +34,7 @@ def test_a_cell_is_a_number_of_sane_size(tmp_path, cell, number):
 
 def test_a_point_beside_decimal_commas_may_separate_thousands(tmp_path):
     (tmp_path / "a.csv").write_text("t_s;U_a_mm\n0;1,5\n1;1.250\n")
-    with pytest.raises(ValidationError, match=r'line 3: U_a_mm is "1\.250"'):
+    with pytest.raises(EntryError, match=r'line 3: U_a_mm is "1\.250"'):
         read_rows(TableFile("a.csv", delimiter=";", decimal=","), tmp_path)
 
 
@@ -106,6 +105,7 @@ def test_rows_may_stand_in_the_scene_itself(tmp_path):
         ({"encoding": "martian"}, '"martian" is unknown', "latin-1"),
         ({"encoding": "hex"}, '"hex" is unknown', "latin-1"),
         ({"encoding": "utf-8"}, "is not UTF-8 text", 'encoding = "latin-1"'),
+        ({"encoding": "punycode"}, "is not PUNYCODE text", 'encoding = "latin-1"'),
         ({"repeat": 1}, "is a number", "true or false"),
         ({"decimal": "."}, 'Zeit (ms) is "0,0"', "such as 0.5"),
     ],
@@ -117,6 +117,23 @@ def test_an_instrument_s_file_that_is_described_wrongly(entries, problem, remedy
         scene(tmp_path, **(INSTRUMENT | entries))
     assert problem in caught.value.faults[0].problem
     assert remedy in caught.value.faults[0].remedy
+
+
+@pytest.mark.parametrize(
+    ("entries", "keys"),
+    [
+        ({"perod_s": 1.0, "resample": 3}, ["perod_s", "resample", "file", "file"]),
+        ({"period_s": -1.0, "unit": "mile"}, ["period_s", "unit", "file", "file"]),
+        ({"delimeter": ";"}, ["delimeter"]),  # the rows are not known to be written otherwise
+        ({"encoding": 1}, ["encoding"]),
+        ({"repeet": True}, ["repeet"]),
+    ],
+)
+def test_a_bad_key_hides_no_bad_row(entries, keys, tmp_path):
+    (tmp_path / "a.csv").write_text(HEAD + "0,0\n1,x\n2,y\n")
+    with pytest.raises(SceneError) as caught:
+        scene(tmp_path, file="a.csv", **entries)
+    assert [fault.key for fault in caught.value.faults] == keys
 
 
 def test_a_fault_of_the_load_of_a_file_is_the_file_s(tmp_path):
@@ -169,6 +186,19 @@ def test_a_record_that_is_shorter_than_the_period_is_refused(tmp_path):
     record(tmp_path, 30)
     with pytest.raises(SceneError, match="before the period does"):
         load(tmp_path, file="a.csv", period_s=0.06, repeat=True)
+
+
+def test_a_period_of_a_single_row_is_refused(tmp_path):
+    """It would be a constant load."""
+    record(tmp_path, 30)
+    with pytest.raises(SceneError, match="is not longer than the time from row to row"):
+        load(tmp_path, file="a.csv", period_s=0.0006, repeat=True)
+
+
+def test_the_period_of_rows_is_looked_at_as_any_other():
+    rows = {"kind": "table", "times_s": [0.0, 1e9, 3e9], "values_mm": [0.0, 1e-4, 0.0]}
+    slow = load_scene("section4").with_({"load": rows})
+    assert any("period_s = 3e+09 is outside" in notice for notice in slow.notices)
 
 
 def test_the_seam_and_the_drift_of_a_record_are_told(tmp_path):

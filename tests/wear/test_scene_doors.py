@@ -1,5 +1,6 @@
 """The same checks run on every way to a scene and to a load."""
 
+import itertools
 import json
 import math
 from collections.abc import Callable
@@ -8,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy
 
 from wear.faults import SceneError
 from wear.load import Block, Blocks, Harmonics, HistoryLoad, Sine, Table
@@ -99,6 +101,11 @@ def test_all_faults_of_a_table_come_at_once():
         (lambda: Table((0.0, True), ("0", 0.0)), "entry 2: is true or false"),
         (lambda: Table((0.0, 1.0), (0.0, 1e300)), "entry 2: 1e+300 is out of range"),
         (lambda: Table((0.0, 1.0), (0.0,)), "2 times and 1 values"),
+        (lambda: Harmonics(0.0, itertools.count(), (), 1.0), "too many entries"),  # type: ignore[arg-type]
+        (lambda: Table(range(10**9), (0.0,)), "1000000000 entries"),  # type: ignore[arg-type]
+        (lambda: Harmonics(0.0, {1e-4, 2e-4}, (), 1.0), "is of type set"),  # type: ignore[arg-type]
+        (lambda: Motion(sympy.Symbol("R"), 1.0), "is of type Symbol"),
+        (lambda: SECTION4.with_({"title.x": 3}), "title: is a table"),
         (lambda: HistoryLoad((0.0, 1.0), (0.0, 1.0), -1.0), "negative"),
         (lambda: HistoryLoad((0.0, 0.0), (0.0, 1.0), 1.0), "does not come after"),
         (lambda: Blocks(()), "has 0 blocks"),

@@ -151,7 +151,7 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
 
     from wear.binding import bind
     from wear.faults import Interrupted
-    from wear.history_files import States, write
+    from wear.history_files import States, title_attribute, write
     from wear.inside import fields_inside
 
     worst, done = 0.0, 0
@@ -164,7 +164,7 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
             worst, done = max(worst, float(np.max(part.error))), done + len(part.cycles)
 
     attributes = {
-        "title": " ".join((scene.title or scene.name).split()) or "untitled",
+        "title": title_attribute(scene.title or scene.name),
         "scene": scene.to_json(),
         "method": "abel",
         "rtol": repr(rtol),

@@ -14,7 +14,7 @@ from wear.load.conversion import PERIODIC, load_from_table
 from wear.load.periodic import Load
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
-from wear.validation import Count, Finding, SceneTable, all_wrong, problems, table, wrong
+from wear.validation import Count, EntryError, Finding, SceneTable, problems, table, wrong
 
 MOST_BLOCKS = 1000
 Periodic = Annotated[Load, PlainValidator(partial(load_from_table, kinds=PERIODIC))]
@@ -47,7 +47,7 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
                 within = path[1:] if path[:1] == ("load",) else path
                 faults.append(((place, *within), problem, remedy))
     if faults:
-        raise all_wrong(*faults)
+        raise EntryError(*faults)
     return tuple(blocks)
 
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from pydantic import ValidationInfo
+from pydantic import ValidationError, ValidationInfo
 
-from wear.load.csv_file import ForceFile, RowsFile
+from wear.load.csv_file import ForceFile, RowsFile, read_rows
 from wear.load.piecewise_linear import ForceTable, HistoryLoad, Table, load_from_file
-from wear.validation import TABLES, SceneTable, choice, wrong
+from wear.validation import TABLES, EntryError, SceneTable, choice, problems, wrong
 from wear.words import did_you_mean, shown
 
 PERIODIC = ("sine", "constant", "harmonics", "table")
 KINDS = (*PERIODIC, "force", "history", "blocks")
 ROWS = {"table": Table, "force": ForceTable, "history": HistoryLoad}
 """Loads whose rows are in the scene file itself."""
+FORMAT = ("file", "columns", "delimiter", "decimal", "encoding", "repeat")
+"""Entries on which it depends how a file is read: where one of them is wrong, its rows are not."""
 
 
 def load_from_table(raw: object, info: ValidationInfo, kinds: Collection[str] = KINDS) -> Any:
@@ -36,10 +38,21 @@ def load_from_table(raw: object, info: ValidationInfo, kinds: Collection[str] = 
     kind = choice(raw["kind"], kinds, "kind")
     entries = {key: value for key, value in raw.items() if key != "kind"}
     by_rows = ROWS if "times_s" in entries else {"force": ForceFile} if "file" in entries else {}
-    tables = {each.kind: each for each in TABLES} | by_rows
-    validator = tables[kind].__pydantic_validator__  # type: ignore[attr-defined]
-    load = validator.validate_python(entries, context=info.context)
+    table = ({each.kind: each for each in TABLES} | by_rows)[kind]
+    validator = table.__pydantic_validator__  # type: ignore[attr-defined]
     folder = (info.context or {}).get("folder")
+    try:
+        load = validator.validate_python(entries, context=info.context)
+    except ValidationError as error:
+        faults = problems(error)
+        bad = {str(path[0]) for path, *_ in faults if path}
+        if issubclass(table, RowsFile) and not any(did_you_mean(key, FORMAT) for key in bad):
+            sane = {key: entry for key, entry in entries.items() if key not in bad}
+            try:
+                read_rows(validator.validate_python(sane, context=info.context), folder)
+            except EntryError as bad_rows:
+                faults += bad_rows.findings
+        raise EntryError(*faults) from None
     return load_from_file(load, folder) if isinstance(load, RowsFile) else load
 
 

@@ -10,26 +10,27 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
-from pydantic import AfterValidator, Field, PlainValidator, ValidationError
+from pydantic import AfterValidator, Field, PlainValidator
 
 from wear.input_files import UTF_16_MARKS, cells_of, find_rows, number_in, read_bytes
 from wear.numerics.gauss import FloatArray
 from wear.validation import (
     BOUNDS,
+    EntryError,
     Finding,
     Flag,
-    OneOf,
     Positive,
     SceneTable,
     Text,
-    Words,
-    all_wrong,
     is_sane,
+    one_of,
     table,
+    words,
     wrong,
 )
 from wear.words import shown
@@ -74,7 +75,7 @@ def _file(columns: str, ending: str = "") -> Any:
 
 Encoding = Annotated[Text, AfterValidator(_encoding)]
 Delimiter = Annotated[str, PlainValidator(_delimiter)]
-FileName = Annotated[str, Words(1000)]
+FileName = Annotated[str, PlainValidator(partial(words, most=1000))]
 Names = Annotated[tuple[str, str], PlainValidator(_pair)]
 
 
@@ -89,14 +90,14 @@ class RowsFile(SceneTable):
     columns: Names = Field(
         default=("t_s", "U_a_mm"), description="names of the columns of time and displacement"
     )
-    time_unit: Annotated[str, OneOf(SECONDS)] = Field(
+    time_unit: Annotated[str, one_of(SECONDS)] = Field(
         default="s", description="unit of the time column"
     )
-    unit: Annotated[str, OneOf(MILLIMETRES)] = Field(
+    unit: Annotated[str, one_of(MILLIMETRES)] = Field(
         default="mm", description="unit of the displacement column"
     )
     delimiter: Delimiter = Field(default=",", description="character between the columns")
-    decimal: Annotated[str, OneOf((".", ","))] = Field(
+    decimal: Annotated[str, one_of((".", ","))] = Field(
         default=".", description="decimal sign of the numbers"
     )
     encoding: Encoding = Field(default="utf-8", description="encoding of the text")
@@ -104,7 +105,11 @@ class RowsFile(SceneTable):
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         if given.get("decimal") == "," and given.get("delimiter", ",") == ",":
-            yield "decimal", "is the delimiter too", 'give the delimiter, such as delimiter = ";"'
+            yield (
+                ("decimal",),
+                "is the delimiter too",
+                'give the delimiter, such as delimiter = ";"',
+            )
 
 
 @table("load", kind="table")
@@ -146,7 +151,7 @@ class ForceFile(TableFile):
     columns: Names = Field(
         default=("t_s", "R_a_N"), description="names of the columns of time and force"
     )
-    unit: Annotated[str, OneOf(NEWTONS)] = Field(
+    unit: Annotated[str, one_of(NEWTONS)] = Field(
         default="N", description="unit of the force column"
     )
 
@@ -159,11 +164,11 @@ class Rows(NamedTuple):
     sha256: str
 
 
-def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) -> Rows:
-    """Return the rows of a file, by its path from `folder`; with `from_first`, times count from the
-    first row.
+def read_rows(form: RowsFile, folder: Path | None) -> Rows:
+    """Return the rows of a file, by its path from `folder`; times of a record that repeats count
+    from the first row.
 
-    Raises pydantic's `ValidationError` with all faults.
+    Raises `EntryError` with all faults.
     """
     name = form.file
     if folder is None:
@@ -176,12 +181,12 @@ def read_rows(form: RowsFile, folder: Path | None, *, from_first: bool = False) 
         raise wrong(f"{shown(name)}: {problem}{looked}", remedy, "file")
     try:
         text = data.decode("utf-8-sig" if form.encoding == "utf-8" else form.encoding)
-    except UnicodeDecodeError:
+    except UnicodeError:
         known = form.encoding.upper()
         likely = "utf-16" if data.startswith(UTF_16_MARKS) else "latin-1"
         remedy = f'save it as {known} text, or give encoding = "{likely}"'
         raise wrong(f"{shown(name)} is not {known} text", remedy, "file") from None
-    times, values = _parse(text, form, from_first)
+    times, values = _parse(text, form)
     digest = hashlib.sha256(data).hexdigest()
     if form.sha256 not in (None, digest):
         problem = f"{shown(name)} has changed: its sha256 is {digest}"
@@ -206,13 +211,13 @@ LineFault = tuple[int, str, str]
 """Number of a line, its fault, and the remedy."""
 
 
-def _wrong_lines(form: RowsFile, *faults: LineFault) -> ValidationError:
+def _wrong_lines(form: RowsFile, *faults: LineFault) -> EntryError:
     """Return the error for lines of a file."""
     name = shown(form.file)
-    return all_wrong(*(("file", f"{name} line {n}: {text}", cure) for n, text, cure in faults))
+    return EntryError(*((("file",), f"{name} line {n}: {text}", cure) for n, text, cure in faults))
 
 
-def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
+def _parse(text: str, form: RowsFile) -> FloatArray:
     """Return the two columns, or raise the faults of the first few faulty lines."""
     found = find_rows(text, form.delimiter, lambda names: set(form.columns) <= {*names})
     if found is None:
@@ -244,6 +249,7 @@ def _parse(text: str, form: RowsFile, from_first: bool) -> FloatArray:
             break
     columns = np.array(valid, dtype=float).reshape(-1, 2).T
     if valid:
+        from_first = isinstance(form, TableFile) and form.repeat
         columns[0] -= columns[0, 0] if from_first else 0.0
         faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
     if not faults and not 2 <= len(valid) <= MOST_ROWS:

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, PlainValidator
 
 from wear.load.periodic import Smooth, centred, cosine_and_sine, within_cycle
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import FloatArray
-from wear.validation import Numbers, Positive, Real, table
+from wear.validation import Positive, Real, numbers, table
 
 MOST_HARMONICS = 100
-Coefficients = Annotated[tuple[float, ...], Numbers(MOST_HARMONICS)]
+Coefficients = Annotated[tuple[float, ...], PlainValidator(partial(numbers, most=MOST_HARMONICS))]
 SLOPE_ROUNDOFF = 8 * ROUNDOFF  # of the slope's terms, each times its order
 
 

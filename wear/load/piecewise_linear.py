@@ -6,7 +6,7 @@ import dataclasses
 import math
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar, Self, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Self, TypeVar
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -16,14 +16,49 @@ from wear.load.csv_file import ForceFile, HistoryFile, RowsFile, TableFile, orde
 from wear.load.periodic import inside, within_cycle
 from wear.numerics.gauss import FloatArray
 from wear.quantities import unit_of
-from wear.validation import Positive, Reals, SceneTable, all_wrong, table, wrong
+from wear.validation import EntryError, Positive, Reals, SceneTable, table, wrong
 
 T = TypeVar("T", "Table", "ForceTable", "HistoryLoad")
 SEAM_TOLERANCE = 1e-9  # of the swing: a period of computed values closes up to their roundoff
 
 
+class Lines:
+    """Values on straight lines between rows, given by their abscissae and values."""
+
+    if TYPE_CHECKING:
+
+        @cached_property
+        def _abscissae(self) -> FloatArray: ...
+
+        @cached_property
+        def _values(self) -> FloatArray: ...
+
+    @cached_property
+    def minimum(self) -> float:
+        return float(np.min(self._values))
+
+    @cached_property
+    def maximum(self) -> float:
+        return float(np.max(self._values))
+
+    @cached_property
+    def mean(self) -> float:
+        areas = 0.5 * np.diff(self._abscissae) * (self._values[1:] + self._values[:-1])
+        return math.fsum(areas.tolist()) / float(self._abscissae[-1] - self._abscissae[0])
+
+    def _interpolated(self, at: FloatArray) -> FloatArray:
+        """Return the values on the straight lines between the rows."""
+        return np.asarray(np.interp(at, self._abscissae, self._values))
+
+    def _slope(self, at: FloatArray) -> FloatArray:
+        """Return the slope at each abscissa; at a row, that of the line to its right."""
+        slopes = np.diff(self._values) / np.diff(self._abscissae)
+        line = np.searchsorted(self._abscissae, at, side="right") - 1
+        return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
+
+
 @table("")
-class _Rows(SceneTable):
+class _Rows(Lines, SceneTable):
     """Values at times in s that rise from 0; `value_field` names the field of the values."""
 
     value_field: ClassVar[str] = "values_mm"
@@ -36,14 +71,6 @@ class _Rows(SceneTable):
         return values
 
     @cached_property
-    def minimum(self) -> float:
-        return min(self.rows)
-
-    @cached_property
-    def maximum(self) -> float:
-        return max(self.rows)
-
-    @cached_property
     def _values(self) -> FloatArray:
         return np.asarray(self.rows)
 
@@ -51,21 +78,6 @@ class _Rows(SceneTable):
     def _abscissae(self) -> FloatArray:
         """Return the abscissae of the rows: their times."""
         return np.asarray(self.times_s)
-
-    def _interpolated(self, at: FloatArray) -> FloatArray:
-        """Return the values on the straight lines between the rows."""
-        return np.asarray(np.interp(at, self._abscissae, self._values))
-
-    def _slope(self, at: FloatArray) -> FloatArray:
-        """Return the slope at each abscissa; at a row, that of the line to its right."""
-        slopes = np.diff(self._values) / np.diff(self._abscissae)
-        line = np.searchsorted(self._abscissae, at, side="right") - 1
-        return np.asarray(slopes[np.clip(line, 0, len(slopes) - 1)])
-
-    @cached_property
-    def mean(self) -> float:
-        areas = 0.5 * np.diff(self._abscissae) * (self._values[1:] + self._values[:-1])
-        return math.fsum(areas.tolist()) / float(self._abscissae[-1] - self._abscissae[0])
 
     def __repr__(self) -> str:
         values, duration, unit = self.rows, self.times_s[-1], unit_of(self.value_field)
@@ -79,7 +91,7 @@ class _Rows(SceneTable):
             problem = f"there are {rows} times and {len(self.rows)} values"
             raise wrong(problem, "give as many of both, from 2 on", "times_s")
         if faults := order_faults(np.asarray(self.times_s)):
-            raise all_wrong(*(("times_s", problem, remedy) for _, problem, remedy in faults))
+            raise EntryError(*((("times_s",), problem, remedy) for _, problem, remedy in faults))
         return self
 
 
@@ -113,8 +125,13 @@ class _PeriodicRows(_Rows):
         return {f"{self.value_field}[{j}]": hat for j, hat in enumerate(hats)}
 
     @property
-    def period(self) -> float:
+    def period_s(self) -> float:
+        """Return T; notices look at it as at that of other loads."""
         return self.times_s[-1]
+
+    @property
+    def period(self) -> float:
+        return self.period_s
 
     @cached_property
     def kinks(self) -> tuple[float, ...]:
@@ -208,17 +225,44 @@ class HistoryLoad(_Rows):
         return inside(np.asarray(cycles) * self.period_s, self.duration)
 
 
+class HistoryCycle(Lines):
+    """One cycle of a measured history, from cycle `first`, as a function of its phase."""
+
+    peaks: ClassVar[tuple[float, ...]] = ()  # all of them are kinks
+
+    def __init__(self, history: HistoryLoad, first: int) -> None:
+        start, end = history.time_at(np.minimum([first, first + 1], history.cycles)).tolist()
+        times = np.array([start, *history.breakpoints(start, end), end])
+        if start == end:  # after the last cycle: its last line
+            times = np.array(history.times_s[-2:])
+        self.period = history.period_s
+        self._abscissae, self._values = (times - start) / self.period, history(times)
+
+    def __call__(self, phase: FloatArray | float) -> FloatArray:
+        return self._interpolated(np.asarray(phase))
+
+    def slope(self, phase: FloatArray | float) -> FloatArray:
+        return self._slope(np.asarray(phase))
+
+    def gradient(self, phase: FloatArray) -> dict[str, FloatArray]:
+        """Return no derivatives: the rows of a history are no parameters."""
+        return {}
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        return tuple(self._abscissae[1:-1].tolist())
+
+
 def load_from_file(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:
     """Return the load of a CSV file, or raise pydantic's `ValidationError` with all its faults."""
-    repeat = isinstance(form, TableFile) and form.repeat
-    rows = read_rows(form, folder, from_first=repeat)
+    rows = read_rows(form, folder)
     times, values = rows.times, rows.values
     source = dataclasses.replace(form, sha256=rows.sha256)
     if isinstance(source, HistoryFile):
         period = form.period_s or float(times[-1])
         return _validated(HistoryLoad, _floats(times), _floats(values), period, source)
     assert isinstance(source, TableFile)
-    times, values = _one_period(times, values, form.period_s, repeat)
+    times, values = _one_period(times, values, form.period_s, source.repeat)
     if isinstance(source, ForceFile):
         return _validated(ForceTable, _floats(times), _floats(values), source)
     return _validated(Table, _floats(times), _floats(values), source)
@@ -251,6 +295,9 @@ def _one_period(
         remedy = "drop period_s or correct it, or take one period of the record by repeat = true"
         raise wrong(problem, remedy, "period_s")
     kept = times < period - slack if repeat else times < max(last, period - slack)
+    if repeat and not kept[1]:
+        problem = f"is not longer than the time from row to row, {float(times[1])!r} s"
+        raise wrong(problem, "give the time of a period, in s", "period_s")
     first, end = values[[0, -1]].tolist()
     if not repeat and not kept[-1] and abs(end - first) > SEAM_TOLERANCE * np.ptp(values):
         problem = f"the load jumps at the seam from {end!r} to {first!r}"

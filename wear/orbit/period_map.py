@@ -174,8 +174,31 @@ class PeriodMap(NamedTuple):
             maps, near = self.take(rows), None if guess is None else take(guess, rows)
             if frozen is not None:
                 near = guess_without_feedback(starts[rows], frozen[rows], maps.over)
-            runs.append(solve(maps, starts[rows], near))
+            runs.append(maps._solved(starts[rows], near))
         return stacked(runs)._replace(evaluations=sum(run.evaluations for run in runs))
+
+    def _solved(self, starts: FloatArray, guess: InitialGuess | None) -> CycleSolution:
+        """Return the cycles from the starts (scenes, k), a few starts at a time under a long
+        record: the iteration needs a dozen arrays."""
+        parts = min(self._parts(starts), starts.shape[1])
+        if parts == 1:
+            return solve(self, starts, guess)
+        runs = []
+        for some in np.array_split(np.arange(starts.shape[1]), parts):
+            near = guess and InitialGuess(*(array[:, some] for array in guess))
+            runs.append(solve(self, starts[:, some], near))
+        return CycleSolution(
+            np.concatenate([run.increment for run in runs], axis=1),
+            np.concatenate([run.inside for run in runs], axis=1),
+            np.concatenate([run.rate for run in runs], axis=1),
+            sum(run.evaluations for run in runs),
+            np.all([run.converged for run in runs], axis=0),
+            np.concatenate([run.iteration_error for run in runs], axis=1),
+        )
+
+    def _parts(self, u: FloatArray) -> int:
+        """Return in how many parts the rates at states (scenes, k) are evaluated."""
+        return 1 + int(u[0].size * self.forcing[0].size) // MOST_AT_ONCE
 
     def rate_without_feedback(self, u: FloatArray) -> FloatArray:
         """Return the rate (scenes, k, q, m) in cycles, the state frozen at each u (scenes, k)."""
@@ -187,8 +210,7 @@ class PeriodMap(NamedTuple):
 
     def increment_without_feedback(self, u: FloatArray) -> FloatArray:
         """Return the increments (scenes, k) of cycles with that rate."""
-        parts = 1 + u[0].size * self.forcing[0].size // MOST_AT_ONCE
-        some = np.array_split(u, min(parts, u.shape[1]), axis=1)
+        some = np.array_split(u, min(self._parts(u), u.shape[1]), axis=1)
         each = [integral(self.rate_without_feedback(part), self.over) for part in some]
         return np.concatenate(each, axis=1)
 

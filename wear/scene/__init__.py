@@ -66,17 +66,19 @@ class Scene(SceneTable):
         if "bearing" in given and all(type(r) in (int, float) and r == 0 for r in rough):
             which = "both solids" if len(rough) > 1 else "the only rough solid"
             remedy = "give at least one solid a roughness_mm > 0"
-            yield "bearing.roughness_mm", f"the roughness is zero on {which}", remedy
+            yield ("bearing", "roughness_mm"), f"the roughness is zero on {which}", remedy
 
     @classmethod
     def from_dict(
-        cls, tables: Mapping[str, Any], name: str = "scene", folder: Path | None = None
+        cls, tables: Mapping[str, Any], name: str = "scene", folder: str | Path | None = None
     ) -> Scene:
         """Return the scene of tables as `to_tables` gives them and TOML reads them.
 
         Raises `SceneError` with every fault. `folder` is where CSV files are looked for.
         """
-        return _checked(tables, Source(_place(name)), name, folder)
+        if isinstance(folder, str):
+            folder = Path(folder)
+        return _checked(tables, Source(_place(str(name))), str(name), folder)
 
     def with_(self, changes: Mapping[str, Any]) -> Scene:
         """Return the scene with entries changed, as `--set` changes those of a file; None drops.
@@ -84,13 +86,14 @@ class Scene(SceneTable):
         >>> load_scene("section4").with_({"bearing.roughness_growth": 0.3}).bearing.roughness_growth
         0.3
         """
-        try:
-            named = {key.partition(".")[0] for key in changes.keys()}  # noqa: SIM118
-        except (AttributeError, TypeError):
+        if not hasattr(changes, "items") or not are_texts([*changes]):
             form = "{'bearing.roughness_growth': 0.3}"
-            raise UsageError(f"changes: give a mapping such as {form}") from None
-        tables = {name: getattr(self, name) for name in self.entries}
-        tables |= {name: self._entries(name) for name in named & {*PARTS}}
+            raise UsageError(f"changes: give a mapping such as {form}")
+        named = {key.partition(".")[0] for key in changes} & {*PARTS}
+        tables = {
+            name: self._entries(name) if name in named else getattr(self, name)
+            for name in self.entries
+        }
         for key, value in changes.items():
             set_entry(tables, tuple(key.split(".")), value, keep=changes)
         return Scene.from_dict(tables, self.name, self.folder)

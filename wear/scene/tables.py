@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,7 +17,6 @@ from wear.validation import (
     Finding,
     Flag,
     NonNegative,
-    OneOf,
     Positive,
     Real,
     SceneTable,
@@ -35,12 +35,12 @@ def contact_laws() -> tuple[str, ...]:
     return tuple(sorted(module.parent.name for module in found))
 
 
-def _law(raw: object, info: ValidationInfo) -> str:
+def _law(raw: object, info: ValidationInfo, known: Collection[str]) -> str:
     """Return the name of a contact law of the package, or of one that is given by its formula."""
     if isinstance(raw, str) and own_laws.is_own(raw):
         raw = {"phi": raw.removeprefix(own_laws.PREFIX)}
     if not isinstance(raw, Mapping):
-        return choice(raw, contact_laws())
+        return choice(raw, known)
     text = raw.get("phi")
     if raw.keys() == {"file"} and isinstance(raw["file"], str):
         text = _formula(raw["file"], (info.context or {}).get("folder"))
@@ -104,7 +104,7 @@ class Contact(SceneTable):
         default=None,
         description="h_0 as a multiple of the initial equivalent roughness, instead of closure_mm",
     )
-    law: Annotated[str, OneOf(contact_laws()), PlainValidator(_law)] = Field(
+    law: Annotated[str, PlainValidator(partial(_law, known=contact_laws()))] = Field(
         default="tanh",
         description='contact law p/p_max = phi(h/sigma): a name, { phi = "..." } in r = h/sigma, '
         'or { file = "..." } with the formula in a file beside the scene',
@@ -129,14 +129,14 @@ class Contact(SceneTable):
     @classmethod
     def relations(cls, given: Mapping[str, Any]) -> Iterator[Finding]:
         """Yield the faults of closures and of the contact's two lengths."""
-        match [key in given for key in CLOSURES]:
-            case [False, False]:
-                yield "", f"{' or '.join(CLOSURES)} is missing", "give one of the two"
-            case [True, True]:
-                yield CLOSURES[1], f"{' and '.join(CLOSURES)} are both given", "keep one of the two"
+        known = [key for key in CLOSURES if key in given]
+        if not known:
+            yield (), f"{' or '.join(CLOSURES)} is missing", "give one of the two"
+        if len(known) > 1:
+            yield CLOSURES[1:], f"{' and '.join(known)} are both given", "keep one of the two"
         for one, other in (("width_mm", "length_mm"), ("length_mm", "width_mm")):
             if one in given and other not in given:
-                yield "", f"{other} is missing", f"give it too, or drop {one}"
+                yield (), f"{other} is missing", f"give it too, or drop {one}"
 
 
 @table("support")

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from wear.faults import Fault, SceneError
-from wear.validation import TABLES, Path, place_of
+from wear.validation import TABLES, EntryError, Path, place_of, wrong
 from wear.words import shown
 
 MOST_BYTES = 256 * 1024
@@ -68,38 +68,39 @@ def read_tables(
     faults: list[Fault] = []
     options: dict[Path, str] = {}
     for option in overrides:
-        entry = _read_override(option)
-        if isinstance(entry, Fault):
-            faults.append(entry)
-            continue
-        path, value = entry
-        dotted = ".".join(map(str, path))
-        if path in options:
-            problem, remedy = f"{shown(dotted)} is set twice", "keep one of the two"
-            faults.append(Fault(f"--set {shown(option)}", None, "", "", problem, remedy))
-        set_entry(tables, path, value, keep=options)
-        options[path] = option
+        try:
+            path, value = _read_override(option)
+            if path in options:
+                raise wrong(f"{shown('.'.join(path))} is set twice", "keep one of the two")
+        except EntryError as error:
+            place = f"--set {shown(option)}"
+            faults += [Fault(place, None, "", "", *words) for _, *words in error.findings]
+        else:
+            set_entry(tables, path, value, keep=options)
+            options[path] = option
     return tables, Source(file, key_lines(text), options, tuple(faults))
 
 
-def _decode(data: bytes | str, file: str) -> str:
-    def refuse(line: int | None, problem: str, remedy: str) -> SceneError:
-        return SceneError([Fault(file, line, "", "", problem, remedy)])
+def _refused(file: str, line: int | None, problem: str, remedy: str) -> SceneError:
+    """Return the error for a text that is no scene."""
+    return SceneError([Fault(file, line, "", "", problem, remedy)])
 
+
+def _decode(data: bytes | str, file: str) -> str:
     if len(data) > MOST_BYTES:
         size = f"is larger than {MOST_BYTES // 1024} KiB"
-        raise refuse(None, size, "move long data to a CSV file")
+        raise _refused(file, None, size, "move long data to a CSV file")
     try:
         text = data.decode("utf-8-sig") if isinstance(data, bytes) else data
     except UnicodeDecodeError as error:
         line = error.object[: error.start].count(b"\n") + 1
-        raise refuse(line, "is not UTF-8 text", "save the file as UTF-8") from None
+        raise _refused(file, line, "is not UTF-8 text", "save the file as UTF-8") from None
     for number, words in enumerate(text.split("\n"), start=1):
         if len(words) > LONGEST_LINE:
             problem = f"the line has more than {LONGEST_LINE} characters"
-            raise refuse(number, problem, "break the line")
+            raise _refused(file, number, problem, "break the line")
     if not text.strip():
-        raise refuse(None, "is empty", "start from a built-in scene")
+        raise _refused(file, None, "is empty", "start from a built-in scene")
     return text
 
 
@@ -107,7 +108,7 @@ def _parse(text: str, file: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except RecursionError:
-        fault = Fault(file, None, "", "", "is nested too deeply", "a scene has flat tables")
+        fault = _refused(file, None, "is nested too deeply", "a scene has flat tables")
     except ValueError as error:  # TOMLDecodeError, or an integer of more than 4300 digits
         words, lines = str(error), text.rstrip().split("\n")
         at = _AT_LINE.search(words)
@@ -117,8 +118,8 @@ def _parse(text: str, file: str) -> dict[str, Any]:
         problem = f"is not TOML: {shown(_AT_LINE.sub('', words), most=120)}"
         if number is not None:
             problem += f': "{shown(lines[number - 1].strip())}"'
-        fault = Fault(file, number, "", "", problem, FORM)
-    raise SceneError([fault])
+        fault = _refused(file, number, problem, FORM)
+    raise fault
 
 
 def key_lines(text: str) -> dict[Path, int]:
@@ -132,7 +133,9 @@ def key_lines(text: str) -> dict[Path, int]:
     table: Path = ()
     in_string = ""
     for number, line in enumerate(text.split("\n"), start=1):
-        was_in_string, in_string = in_string, _open_string(line, in_string)
+        was_in_string = in_string
+        for mark in re.findall(r'"""|\'\'\'', line):
+            in_string = "" if in_string == mark else in_string or mark
         if was_in_string:
             continue
         if header := _HEADER.match(line):
@@ -147,13 +150,6 @@ def key_lines(text: str) -> dict[Path, int]:
     return lines
 
 
-def _open_string(line: str, quotes: str) -> str:
-    """Return the triple quotes that are still open after `line`."""
-    for mark in re.findall(r'"""|\'\'\'', line):
-        quotes = "" if quotes == mark else quotes or mark
-    return quotes
-
-
 def _split_key(dotted: str) -> tuple[str, ...]:
     return tuple(part.strip().strip("\"'") for part in dotted.split("."))
 
@@ -161,8 +157,8 @@ def _split_key(dotted: str) -> tuple[str, ...]:
 # Overrides: TABLE.KEY=VALUE
 
 
-def _read_override(option: str) -> tuple[Path, object] | Fault:
-    """Return the path and the value of TABLE.KEY=VALUE.
+def _read_override(option: str) -> tuple[tuple[str, ...], object]:
+    """Return the path and the value of TABLE.KEY=VALUE, or raise an `EntryError`.
 
     >>> _read_override("contact.law=exponential")
     (('contact', 'law'), 'exponential')
@@ -171,18 +167,16 @@ def _read_override(option: str) -> tuple[Path, object] | Fault:
     path = tuple(part.strip() for part in dotted.split("."))
     if not equals or not all(path) or not 1 <= len(path) <= 2:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
-        return Fault(f"--set {shown(option)}", None, "", "", "is not TABLE.KEY=VALUE", remedy)
+        raise wrong("is not TABLE.KEY=VALUE", remedy)
     owner = next((each.place for each in TABLES if each.place and path[0] in each.entries), "")
     if len(path) == 1 and owner:
-        remedy = f"did you mean {owner}.{path[0]}?"
-        return Fault(f"--set {shown(option)}", None, "", "", "the table is missing", remedy)
+        raise wrong("the table is missing", f"did you mean {owner}.{path[0]}?")
     value = _override_value(raw.strip())
     if len(path) == 1 and path[0] in PARTS and not isinstance(value, dict):
         known = next(([*each.entries] for each in TABLES if (each.place,) == path), [])
         known = ["kind"] if path == ("load",) else known
-        problem = f"{path[0]} is a table with several entries"
         remedy = f"set one of them, such as --set {path[0]}.{known[0]}=VALUE"
-        return Fault(f"--set {shown(option)}", None, "", "", problem, remedy)
+        raise wrong(f"{path[0]} is a table with several entries", remedy)
     return path, value
 
 
@@ -214,6 +208,8 @@ def set_entry(
             if (name, other) not in keep and f"{name}.{other}" not in keep:
                 table.pop(other, None)
         tables[name] = {each: entry for each, entry in table.items() if entry is not None}
+    elif name not in PARTS:
+        tables[name] = {key: value}  # which a text is not
     if tables[name] is None:
         del tables[name]
 
