@@ -12,7 +12,7 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -30,8 +30,7 @@ pressure, slip_rate, time_increment = sp.symbols(
 _p, _V, _u_a, _u_c, _sigma_a, _sigma_c = symbols("p V u_a u_c sigma_a sigma_c")
 
 
-@dataclass(frozen=True)
-class Increment:
+class Increment(NamedTuple):
     """The parameters of an increment, and pairs of a state variable and its growth, in order."""
 
     parameters: tuple[sp.Symbol, ...]
