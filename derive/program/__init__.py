@@ -25,7 +25,7 @@ from ..variant import Variant
 from . import functions as parts
 from . import gradient
 from .function import Assignment, Function
-from .relations import Relations, groups
+from .relations import groups
 from .root import root
 from .symbols import pin_wear_sign
 
@@ -73,35 +73,34 @@ class Program:
 @cache
 def program(variant: Variant) -> Program:
     """Return the complete program of a variant."""
-    relations = Relations(variant)
-    functions = parts.rigid(relations)
+    functions: tuple[Function, ...]
     if variant.compliant:
-        functions = (*root(relations), *parts.compliant(relations))
+        functions, joint = (*root(variant), *parts.compliant(variant)), ()
+    else:
+        functions = parts.rigid(variant)
+        joint = (parts.rate_and_slope(*functions),)
     hoisted = groups(variant)
     if variant.ends_at_3_sigma:
-        functions += parts.margin(relations)
-        functions += parts.limited() if variant.compliant else ()
-        hoisted += parts.constants(relations)
-    functions += (parts.fields(relations),)
-    plain = _program(variant, hoisted, functions, parts.field_names(variant))
-    pair = () if variant.compliant else (parts.rate_and_slope(*functions[:2]),)
+        constants, of_margin = parts.margin(variant)
+        hoisted += constants
+        functions += (*of_margin, *(parts.limited() if variant.compliant else ()))
+    names, fields = parts.fields(variant)
+    plain = _program(variant, hoisted, (*functions, fields), names)
     gradients = (
-        gradient.rate_gradient(relations, [name for name, _ in plain.constants]),
+        gradient.rate_gradient(variant, [name for name, _ in plain.constants]),
         gradient.parameter_gradient(plain.constants, plain.parameters),
     )
-    return replace(plain, joint_functions=(*pair, *gradients))
+    return replace(plain, joint_functions=(*joint, *gradients))
 
 
 @cache
 def margin_program(pin: Pin) -> Program:
     """Return the functions that loss of contact adds; they depend on neither law nor support."""
-    relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
-    hoisted = (*groups(relations.variant), *parts.constants(relations))
-    functions = (*parts.margin(relations), *parts.limited())
-    plain = _program(relations.variant, hoisted, functions)
-    names = [name for name, _ in plain.constants]
+    variant = Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True)
+    constants, functions = parts.margin(variant)
+    plain = _program(variant, (*groups(variant), *constants), (*functions, *parts.limited()))
     gradients = (
-        gradient.margin_gradient(parts.margin(relations)[0], names),
+        gradient.margin_gradient(functions[0], [name for name, _ in plain.constants]),
         gradient.parameter_gradient(plain.constants, plain.parameters),
     )
     return replace(plain, joint_functions=gradients)
