@@ -54,7 +54,7 @@ class Target:
 
 
 def emit(expr: sp.Basic, target: Target) -> str:
-    """Return an expression or a relation in the language of ``target``; EmitError if the table lacks a form."""
+    """Write an expression or a relation in a language; EmitError if its table lacks a form."""
     text, _ = _emit(expr, target)
     return text
 

@@ -63,6 +63,4 @@ def formula_module(title: str, origin: Sequence[str], formulas: Sequence[Formula
 
 def formula_script(formulas: Iterable[Formula]) -> str:
     """Return the functions of formulas as the body of a function that returns them."""
-    return rendered(
-        "formulas.javascript", formulas=formulas, emit=partial(emit, target=JAVASCRIPT)
-    )
+    return rendered("formulas.javascript", formulas=formulas, emit=partial(emit, target=JAVASCRIPT))

@@ -74,11 +74,12 @@ class Program:
 def program(variant: Variant) -> Program:
     """Return the complete program of a variant."""
     functions: tuple[Function, ...]
+    joint: tuple[Function, ...] = ()
     if variant.compliant:
-        functions, joint = (*root(variant), *parts.compliant(variant)), ()
+        functions = (*root(variant), *parts.compliant(variant))
     else:
-        functions = parts.rigid(variant)
-        joint = (parts.rate_and_slope(*functions),)
+        functions = rate, slope = parts.rigid(variant)
+        joint = (parts.rate_and_slope(rate, slope),)
     hoisted = groups(variant)
     if variant.ends_at_3_sigma:
         constants, of_margin = parts.margin(variant)

@@ -18,6 +18,7 @@ from .symbols import number, u
 
 Assignment = tuple[sp.Symbol, sp.Expr]
 
+
 @dataclass(frozen=True)
 class Function:
     """A generated function: ``results`` in terms of arguments, constants and ``assignments``."""
