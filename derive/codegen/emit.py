@@ -112,18 +112,14 @@ def _fraction(expr: sp.Add, target: Target) -> tuple[str, int] | None:
 
 
 def _sum(expr: sp.Add, target: Target) -> str:
-    terms = sorted(expr.args, key=lambda term: (term.could_extract_minus_sign(), _rank(term)))
+    """Write positive terms before negative ones, single symbols before products."""
+    terms = sorted(expr.args, key=lambda e: (e.could_extract_minus_sign(), len(e.args), str(e)))
     text = emit(terms[0], target)
     for term in terms[1:]:
         negative = term.could_extract_minus_sign()
         body = _wrapped(-term if negative else term, target, _MUL)
         text += f" - {body}" if negative else f" + {body}"
     return text
-
-
-def _rank(term: sp.Expr) -> tuple[int, str]:
-    """Return the rank of a term in a sum: single symbols before products."""
-    return len(term.args), str(term)
 
 
 def _product(expr: sp.Mul, target: Target) -> tuple[str, int]:

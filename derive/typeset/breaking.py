@@ -107,12 +107,9 @@ def _lines(row: str, limit: float, indent: float = _INDENT) -> list[str]:
         if total(first) <= limit and max(map(total, others), default=0.0) <= limit - indent:
             break
     start = source(first) if any(piece.tex == "&" for piece in first) else _aligned(first)
-    return [start.strip(), *(rf"&\qquad {_unaligned(line).strip()}" for line in others)]
-
-
-def _unaligned(line: tuple[Piece, ...]) -> str:
-    """Return a continuation line, aligned by its indent instead of a point of alignment."""
-    return source(piece for piece in line if piece.tex != "&")
+    # a continuation line is aligned by its indent, not at a point of its own
+    rest = (source(piece for piece in line if piece.tex != "&") for line in others)
+    return [start.strip(), *(rf"&\qquad {line.strip()}" for line in rest)]
 
 
 def _aligned(line: tuple[Piece, ...]) -> str:
@@ -209,12 +206,8 @@ def _fill(pieces: tuple[Piece, ...], limit: float, indent: float) -> list[tuple[
 
 def _cost(start: Piece, filled: float) -> float:
     """Return the cost of a line that is filled to this share, if the next one starts there."""
-    return start.depth + _emptiness(filled) - (0.5 if start.kind == "relation" else 0.0)
-
-
-def _emptiness(filled: float) -> int:
-    """Return the cost of an incomplete line, as a number of levels of brackets."""
-    return 0 if filled > 0.5 else 2 if filled > 0.25 else 4
+    levels_of_brackets = 0 if filled > 0.5 else 2 if filled > 0.25 else 4
+    return start.depth + levels_of_brackets - (0.5 if start.kind == "relation" else 0.0)
 
 
 def _breaks(pieces: tuple[Piece, ...]) -> Iterator[tuple[int, Piece]]:
