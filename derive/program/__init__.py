@@ -113,26 +113,20 @@ def _program(
     functions: tuple[Function, ...],
     names: tuple[str, ...] = (),
 ) -> Program:
-    """Hoist the constants of the functions; the parameters are the symbols that these need."""
-    constants = _constants(hoisted, functions)
-    used = set().union(*(expr.free_symbols for _, expr in constants))
-    parameters = used - {name for name, _ in hoisted} - {pin_wear_sign}
-    return Program(variant, tuple(sorted(parameters, key=_order)), constants, functions, names)
+    """Return a program with the constants that its functions need: parameters, then hoisted ones.
 
-
-def _constants(
-    hoisted: Sequence[Assignment], functions: Sequence[Function]
-) -> tuple[Assignment, ...]:
-    """Return the constants that the functions use: plain parameters, then hoisted expressions."""
+    The parameters are the symbols that these need.
+    """
     used = set().union(*(function.free_symbols for function in functions))
-    named = {name for name, _ in hoisted}
-    needed = used & named
+    needed = set(used)
     for name, value in reversed(hoisted):
         if name in needed:
-            needed |= value.free_symbols & named
-    plain = sorted(used - named, key=_order)
-    kept = ((name, value) for name, value in hoisted if name in needed)
-    return (*((name, name) for name in plain), *kept)
+            needed |= value.free_symbols
+    named = {name for name, _ in hoisted}
+    plain = ((name, name) for name in sorted(used - named, key=_order))
+    constants = (*plain, *(each for each in hoisted if each[0] in needed))
+    parameters = tuple(sorted(needed - named - {pin_wear_sign}, key=_order))
+    return Program(variant, parameters, constants, functions, names)
 
 
 def _order(parameter: sp.Symbol) -> int:

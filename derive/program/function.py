@@ -72,19 +72,14 @@ def with_slopes(
     slopes: dict[sp.Symbol, sp.Expr] = {}
     for name, expr in assignments:
         result.append((name, expr))
-        slope = reusing(_total(expr, slopes), name, expr)
+        inner = (sp.diff(expr, symbol) * slope for symbol, slope in slopes.items())
+        slope = reusing(sp.Add(sp.diff(expr, u), *inner), name, expr)
         if slope == 0:
             continue
         slopes[name] = slope if slope.is_Atom else number(f"{name}_u")
         if not slope.is_Atom:
             result.append((slopes[name], slope))
     return tuple(result), slopes
-
-
-def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """Return d expr/du by the chain rule, given the slopes of intermediates."""
-    inner = (sp.diff(expr, name) * slope for name, slope in slopes.items())
-    return sp.Add(sp.diff(expr, u), *inner)
 
 
 def reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:
