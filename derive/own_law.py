@@ -12,6 +12,7 @@ Key results
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from itertools import pairwise
@@ -41,6 +42,7 @@ GOOD = 1e-14  # relative error below which no other form is tried
 TINIEST = 1e-280  # smaller values are not compared
 DIGITS = 320  # working precision, enough for such values after cancellation
 GRID = range(-120, 121)  # quarters of h/sigma at which the curvature is checked
+BITS = 10**5  # largest binary exponent of the argument of an exponential, else it takes minutes
 
 
 @cache
@@ -74,7 +76,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
 def _inflection(phi: sp.Expr) -> sp.Expr:
     """Return the r at which phi turns from concave to convex, -oo if it is convex everywhere."""
     curvature = sp.diff(phi, r, 2)
-    value = sp.lambdify(r, curvature, "mpmath")
+    value = _exactly(curvature)
     with mpmath.workdps(50):
         values = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
         signs = [(x, mpmath.sign(y)) for x, y in values if y != 0]
@@ -183,17 +185,31 @@ def _errors(form: sp.Expr, exact: sp.Expr) -> tuple[list[float], list[float]]:
     at = np.concatenate([np.linspace(low, 10.0, 61), np.geomspace(11.0, high, 40)])
     with np.errstate(all="ignore"):
         rounded = sp.lambdify(r, form, "numpy")(at) + 0.0 * at
-    if not np.isfinite(rounded).all():
-        return [low], [float("inf")]
     worst, found = 0.0, dict[float, float]()
     with mpmath.workdps(DIGITS):
-        value = sp.lambdify(r, exact, "mpmath")
-        for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True):
+        value = _exactly(exact)
+        finite = np.isfinite(rounded).all()
+        for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True) if finite else ():
             true = value(mpmath.mpf(place))
             if abs(true) < TINIEST:
                 break  # all further values are smaller
             worst = found[place] = max(worst, float(abs(approximate / true - 1)))
+    found = found or {low: float("inf")}  # it overflows, or is too small anywhere to be compared
     return list(found), list(found.values())
+
+
+def _exactly(expression: sp.Expr) -> Callable[[mpmath.mpf], mpmath.mpf]:
+    """Return a function of h/sigma in the precision of mpmath.
+
+    It raises OverflowError where an exponential of an exponential would take minutes.
+    """
+
+    def exponential(x: mpmath.mpf) -> mpmath.mpf:
+        if mpmath.mag(x) > BITS:
+            raise OverflowError("an exponent is too large to be computed")
+        return mpmath.exp(x)
+
+    return sp.lambdify(r, expression, [{"exp": exponential}, "mpmath"])
 
 
 def file_of(text: str, name: str) -> str:
