@@ -22,7 +22,6 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 from derive import completion, terminal
@@ -54,11 +53,6 @@ class Answer:
     text: Callable[[], str] = str
     notices: Sequence[str] = ()
     status: int = terminal.DONE
-
-
-def name_of(command: ModuleType) -> str:
-    """Return the name of a command."""
-    return command.__name__.rpartition(".")[2].rstrip("_")
 
 
 class Parser(argparse.ArgumentParser):
@@ -128,7 +122,7 @@ def parser(program: str, description: str, examples: str, names: str) -> Parser:
         about, _, examples = (command.__doc__ or "").partition(".\n\n")  # none with -OO
         summary = about.partition(": ")[2]
         branch = branches.add_parser(
-            name_of(command),
+            name.rstrip("_"),
             help=summary,
             description=f"{summary[:1].upper()}{summary[1:]}.",
             epilog=examples,
@@ -137,7 +131,7 @@ def parser(program: str, description: str, examples: str, names: str) -> Parser:
         )
         command.add_arguments(branch)
         declare(branch, "--json", "print one JSON document")
-        branch.set_defaults(command=command)
+        branch.set_defaults(command=command, branch=branch)
     return whole
 
 
@@ -155,21 +149,20 @@ def main(
 
     def execute() -> int:
         options = _parsed(whole, words)
-        command = options.command
         try:
-            answer = command.execute(options)
+            answer = options.command.execute(options)
         except ModuleNotFoundError as missing:
             package = (missing.name or "").partition(".")[0]
             if package not in OF_THE_REPORT:
                 raise
             extra = "pip install 'derive-wear[report]'"
-            whole.error(f"{name_of(command)}: needs the package {package}: {extra}")
+            whole.error(f"{words[0]}: needs the package {package}: {extra}")
         if options.json:
-            terminal.print_json(answer.document)
+            print(terminal.json_text(answer.document), end="")
         elif text := answer.text():
             print(text, end="" if text.endswith("\n") else "\n")
         for notice in answer.notices:
-            terminal.complain(f"{whole.prog} {name_of(command)}", notice)
+            terminal.complain(options.branch.prog, notice)
         return answer.status
 
     return terminal.run(" ".join([whole.prog, *words[:1]]), execute, expected)
@@ -177,16 +170,15 @@ def main(
 
 def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Namespace:
     """Parse the words; suggest a correction for a mistyped one, in the usage of its command."""
-    branches = completion.commands(whole)
     if not words:
         whole.print_help(sys.stderr)
         whole.exit(terminal.USAGE)
-    known = [*branches, *_options(whole)]
+    known = [*completion.commands(whole), *_options(whole)]
     if words[0] not in known:
         hint = _suggestion(words[0], known) or f"; `{whole.prog} --help` lists the commands"
         whole.error(f"{words[0]}: there is no such command{hint}")
     options, unknown = whole.parse_known_args(words)
-    branch = branches[name_of(options.command)]
+    branch = options.branch
     if unknown:
         wrong = [word for word in unknown if word.startswith("-")] or unknown
         hints = (f"{word}: not understood{_suggestion(word, _options(branch))}" for word in wrong)

@@ -59,7 +59,9 @@ def _cases(name: str, parser: argparse.ArgumentParser) -> Iterator[str]:
 
 
 def _values(actions: Sequence[argparse.Action]) -> dict[str, str]:
-    words = [word for action in actions for word in _words(action)]
+    words: list[str] = []
+    for action in actions:
+        words += [*map(str, action.choices or ()), *getattr(action, "suggestions", tuple)()]
     files = any(action.metavar in _FILES for action in actions)
     return {"words": " ".join(words), "files": "yes" if files else ""}
 
@@ -79,8 +81,3 @@ def commands(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentPars
 def _options(parser: argparse.ArgumentParser) -> list[str]:
     every = (option for action in parser._actions for option in action.option_strings)
     return [option for option in every if option.startswith("--")]
-
-
-def _words(action: argparse.Action) -> Sequence[str]:
-    suggested: Callable[[], Sequence[str]] = getattr(action, "suggestions", tuple)
-    return [*map(str, action.choices or ()), *suggested()]

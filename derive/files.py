@@ -41,7 +41,8 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         draft = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
         try:
             yield draft
-            _flush_to_disk(draft)
+            with draft.open("rb") as handle:
+                os.fsync(handle.fileno())
             if target.exists():
                 shutil.copymode(target, draft)
             draft.replace(target)
@@ -64,11 +65,10 @@ def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None
         draft.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-@contextmanager
-def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give an empty directory; its files move to `folder` when the block ends without error.
+def write_all(folder: str | os.PathLike[str], contents: Mapping[str, str | bytes]) -> None:
+    """Write files by their names into a folder, which is made if need be.
 
-    `folder` is made if need be. Files of the same names are replaced, one by one, others stay.
+    Files of the same names are replaced, one by one and after all are written; others stay.
     """
     target = Path(folder)
     try:
@@ -76,26 +76,17 @@ def replacing_in(folder: str | os.PathLike[str]) -> Iterator[Path]:
         target.mkdir(parents=True, exist_ok=True)
         try:
             # inside the target, thus on the same file system, where a rename is atomic
-            with tempfile.TemporaryDirectory(prefix=".draft-", dir=target) as name:
-                draft = Path(name)
-                yield draft
-                for file in sorted(entry for entry in draft.rglob("*") if entry.is_file()):
-                    place = target / file.relative_to(draft)
-                    place.parent.mkdir(parents=True, exist_ok=True)
-                    file.replace(place)
+            with tempfile.TemporaryDirectory(prefix=".draft-", dir=target) as draft:
+                for name, content in contents.items():
+                    write_atomically(Path(draft, name), content)
+                for name in sorted(contents):
+                    Path(draft, name).replace(target / name)
         except BaseException:
             if created:
                 shutil.rmtree(target, ignore_errors=True)
             raise
     except OSError as fault:
         raise _named(fault, target) from fault
-
-
-def write_all(folder: str | os.PathLike[str], contents: Mapping[str, str | bytes]) -> None:
-    """Write files by their names into a folder, as `replacing_in` does."""
-    with replacing_in(folder) as draft:
-        for name, content in contents.items():
-            write_atomically(draft / name, content)
 
 
 def obstacle(path: str | os.PathLike[str]) -> str | None:
@@ -131,11 +122,6 @@ def obstacle_to_folder(path: str | os.PathLike[str]) -> str | None:
     if not os.access(nearest, os.W_OK):
         return f"{nearest}: may not be written"
     return None
-
-
-def _flush_to_disk(file: Path) -> None:
-    with file.open("rb") as handle:
-        os.fsync(handle.fileno())
 
 
 def _named(fault: OSError, path: Path) -> OSError:

@@ -43,15 +43,14 @@ class StableForm:
 
     ``intermediates`` are named values in order, each an expression in r and earlier ones, in exact
     form except for exponents clamped at EXP_BOUND.  ``far_value`` and ``far_steepness`` are phi and
-    phi'/phi in one expression each that does not overflow for large r, where they tend to a limit;
-    None where the plain form does not.
+    phi'/phi in one expression each that does not overflow for large r, where they tend to a limit.
     """
 
     intermediates: tuple[tuple[sp.Symbol, sp.Expr], ...]
     value: sp.Expr
     slope: sp.Expr
-    far_value: sp.Expr | None = None
-    far_steepness: sp.Expr | None = None
+    far_value: sp.Expr
+    far_steepness: sp.Expr
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,9 @@ class ContactLaw:
         >>> ContactLaw("square", 1 / (1 + r**2), sp.Integer(1), "an example").stable.slope
         -2*r/(r**2 + 1)**2
         """
-        return self.form or StableForm(((share, self.phi),), share, sp.diff(self.phi, r))
+        slope = sp.diff(self.phi, r)
+        steepness = sp.cancel(slope / self.phi)
+        return self.form or StableForm(((share, self.phi),), share, slope, self.phi, steepness)
 
 
 TANH = ContactLaw(
@@ -108,7 +109,7 @@ EXPONENTIAL = ContactLaw(
     phi=sp.exp(-r),
     inflection=sp.S.NegativeInfinity,
     source="Greenwood and Williamson (1966), exponential distribution of heights",
-    form=StableForm(intermediates=((share, sp.exp(-r)),), value=share, slope=-share),
+    form=StableForm(((share, sp.exp(-r)),), share, -share, sp.exp(-r), sp.S.NegativeOne),
 )
 
 GENERAL = ContactLaw(

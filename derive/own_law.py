@@ -1,12 +1,9 @@
-"""A contact law that is given as text: read, never executed, proved and made into sources.
+"""A contact law that is given as text: proved, and made into sources.
 
 Overview
-    The text is parsed by Python's own parser and translated from the few nodes that the grammar
-    allows: numbers, r, + - * / ^ and exp, tanh, sqrt.  phi is proved to be positive and
-    decreasing; its inflection is found and, if possible, proved to be the only one; of several
-    equal forms the one that loses fewest digits is generated.
+    phi is proved to be positive and decreasing; its inflection is found and, if possible, proved
+    to be the only one; of several equal forms the one that loses fewest digits is generated.
 Key results
-    normal      the text in one spelling
     own_law     the contact law
     turns_once  whether its curvature is proved to change its sign at most once
     file_of     the modules of its variants, and a summary of its properties
@@ -14,89 +11,38 @@ Key results
 
 from __future__ import annotations
 
-import ast
 import json
+from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
+import mpmath
+import numpy as np
+import sympy as sp
+
+from .codegen import contact_law
+from .codegen.sources import source
 from .faults import UsageError
-
-if TYPE_CHECKING:
-    import sympy as sp
-
-    from .laws import ContactLaw
+from .law_grammar import normal
+from .laws import ContactLaw, StableForm, r, share
+from .note.governing import Pin
+from .program import program
+from .reals import holds
+from .rules.proving import smooth_everywhere
+from .time_limit import TimeLimitError, time_limit
+from .variant import Variant
+from .written import evaluated, read
+from .zero import is_zero
 
 NAME = "own"
-LONGEST = 500  # characters
-LARGEST = 10**6  # numbers in the text
-HIGHEST = 20  # powers
 SECONDS = 30.0  # of CPU time for each symbolic step
 RANGE = (-5.0, 1e4)  # of h/sigma, in which the rounding error is measured
 GOOD = 1e-14  # relative error below which no other form is tried
 TINIEST = 1e-280  # smaller values are not compared
 DIGITS = 320  # working precision, enough for such values after cancellation
 GRID = range(-120, 121)  # quarters of h/sigma at which the curvature is checked
-FUNCTIONS = ("exp", "tanh", "sqrt")
-GRAMMAR = "use numbers, r, + - * / ^, parentheses, exp, tanh and sqrt"
-
-
-def normal(text: str) -> str:
-    """Return the text of a law in one spelling.
-
-    >>> normal("(1 - (r-2)/sqrt(1 + (r - 2)^2)) / 2")
-    '(1 - (r - 2) / sqrt(1 + (r - 2) ** 2)) / 2'
-
-    Raises
-    ------
-    UsageError
-        naming the part outside the grammar.
-    """
-    if len(text) > LONGEST:
-        raise UsageError(f"phi has {len(text)} characters; give at most {LONGEST}")
-    try:
-        tree = ast.parse(text.strip().replace("^", "**"), mode="eval").body
-        _check(tree)
-        return ast.unparse(tree)
-    except (SyntaxError, MemoryError, RecursionError):
-        raise UsageError(f"phi is no formula; {GRAMMAR}") from None
-
-
-def _check(node: ast.AST) -> None:
-    match node:
-        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
-            if not abs(number) <= LARGEST:
-                raise UsageError(f"phi: {ast.unparse(node)[:40]} is too large")
-        case ast.Name(id="r"):
-            pass
-        case ast.BinOp(left=left, op=ast.Pow(), right=right):
-            _check(left)
-            if not abs(_half_integer(right)) <= HIGHEST:
-                raise UsageError(f"phi: the power {ast.unparse(right)[:40]} is beyond {HIGHEST}")
-        case ast.BinOp(left=left, op=ast.Add() | ast.Sub() | ast.Mult() | ast.Div(), right=right):
-            _check(left)
-            _check(right)
-        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
-            _check(operand)
-        case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
-            _check(argument)
-        case _:
-            raise UsageError(f"phi: {ast.unparse(node)[:40]!r} is not understood; {GRAMMAR}")
-
-
-def _half_integer(node: ast.expr) -> float:
-    """Return an exponent: a multiple of one half."""
-    match node:
-        case ast.UnaryOp(op=ast.USub(), operand=operand):
-            return -_half_integer(operand)
-        case ast.BinOp(
-            left=ast.Constant(value=int(above)), op=ast.Div(), right=ast.Constant(value=2)
-        ):
-            return above / 2
-        case ast.Constant(value=int() | float() as number) if number * 2 == int(number * 2):
-            return float(number)
-    raise UsageError(f"phi: {ast.unparse(node)[:40]!r} is no power: give a number such as 2 or 3/2")
+BITS = 10**5  # largest binary exponent of the argument of an exponential, else it takes minutes
 
 
 @cache
@@ -109,14 +55,6 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
         if the law cannot be read, is not proved to be positive and decreasing, or has more than
         one turn from concave to convex.
     """
-    import sympy as sp
-
-    from .codegen.contact_law import faults_of
-    from .laws import ContactLaw, StableForm, r, share
-    from .rules.proving import smooth_everywhere
-    from .time_limit import TimeLimitError, time_limit
-    from .written import evaluated, read
-
     text = normal(text)
     try:
         with time_limit(SECONDS, f"phi = {text}"):
@@ -128,7 +66,7 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
             row = StableForm(((share, value),), share, slope, value, slope / value)
             law = ContactLaw(NAME, phi, _inflection(phi), f"phi = {text}", form=row)
-            if faults := faults_of(law):
+            if faults := contact_law.faults_of(law):
                 raise UsageError("\n".join(faults))
     except (TimeLimitError, ArithmeticError, RecursionError, MemoryError) as fault:
         raise UsageError(f"phi = {text} could not be checked: {fault}") from fault
@@ -137,13 +75,8 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
 
 def _inflection(phi: sp.Expr) -> sp.Expr:
     """Return the r at which phi turns from concave to convex, -oo if it is convex everywhere."""
-    import mpmath
-    import sympy as sp
-
-    from .laws import r
-
     curvature = sp.diff(phi, r, 2)
-    value = sp.lambdify(r, curvature, "mpmath")
+    value = _exactly(curvature)
     with mpmath.workdps(50):
         values = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
         signs = [(x, mpmath.sign(y)) for x, y in values if y != 0]
@@ -169,11 +102,6 @@ def turns_once(law: ContactLaw) -> bool:
     UsageError
         if it changes its sign elsewhere too.
     """
-    import sympy as sp
-
-    from .laws import r
-    from .reals import holds
-
     place, curvature = law.inflection, sp.diff(law.phi, r, 2)
     quotient, step, _ = _of_exponentials(curvature) or (curvature, None, None)
     if quotient.free_symbols == {step}:
@@ -198,10 +126,6 @@ def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
 
     A quotient in decreasing exponentials neither overflows nor cancels.
     """
-    import sympy as sp
-
-    from .zero import is_zero
-
     candidates = [(_loss(expression, expression), expression)]
     forms = [_conjugate(expression)]
     if powers := _of_exponentials(expression):
@@ -216,8 +140,6 @@ def _best(expression: sp.Expr) -> tuple[float, sp.Expr]:
 def _conjugate(expression: sp.Expr) -> sp.Expr:
     """Return every sum a + b sqrt(q) as (a^2 - b^2 q)/(a - b sqrt(q)), which cancels where that
     does not; sums without a root, or with several, as they are."""
-    import sympy as sp
-
     if not expression.is_Add:
         return expression.func(*map(_conjugate, expression.args)) if expression.args else expression
     powers = [p for p in expression.atoms(sp.Pow) if p.exp.is_Rational and p.exp.q == 2]
@@ -240,10 +162,6 @@ def _conjugate(expression: sp.Expr) -> sp.Expr:
 def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] | None:
     """Return an expression as a rational function of one decreasing exponential, its symbol and
     exponent; None for other expressions."""
-    import sympy as sp
-
-    from .laws import r
-
     plain = expression.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
     exponents = sorted((e.args[0] for e in plain.atoms(sp.exp)), key=sp.count_ops)
     if not exponents or not sp.diff(exponents[0], r).is_number:
@@ -263,27 +181,35 @@ def _loss(form: sp.Expr, exact: sp.Expr) -> float:
 
 def _errors(form: sp.Expr, exact: sp.Expr) -> tuple[list[float], list[float]]:
     """Return values of h/sigma, and the largest relative error of a form up to each of them."""
-    import mpmath
-    import numpy as np
-    import sympy as sp
-
-    from .laws import r
-
     low, high = RANGE
     at = np.concatenate([np.linspace(low, 10.0, 61), np.geomspace(11.0, high, 40)])
     with np.errstate(all="ignore"):
         rounded = sp.lambdify(r, form, "numpy")(at) + 0.0 * at
-    if not np.isfinite(rounded).all():
-        return [low], [float("inf")]
     worst, found = 0.0, dict[float, float]()
     with mpmath.workdps(DIGITS):
-        value = sp.lambdify(r, exact, "mpmath")
-        for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True):
+        value = _exactly(exact)
+        finite = np.isfinite(rounded).all()
+        for place, approximate in zip(at.tolist(), rounded.tolist(), strict=True) if finite else ():
             true = value(mpmath.mpf(place))
             if abs(true) < TINIEST:
                 break  # all further values are smaller
             worst = found[place] = max(worst, float(abs(approximate / true - 1)))
+    found = found or {low: float("inf")}  # it overflows, or is too small anywhere to be compared
     return list(found), list(found.values())
+
+
+def _exactly(expression: sp.Expr) -> Callable[[mpmath.mpf], mpmath.mpf]:
+    """Return a function of h/sigma in the precision of mpmath.
+
+    It raises OverflowError where an exponential of an exponential would take minutes.
+    """
+
+    def exponential(x: mpmath.mpf) -> mpmath.mpf:
+        if mpmath.mag(x) > BITS:
+            raise OverflowError("an exponent is too large to be computed")
+        return mpmath.exp(x)
+
+    return sp.lambdify(r, expression, [{"exp": exponential}, "mpmath"])
 
 
 def file_of(text: str, name: str) -> str:
@@ -298,13 +224,6 @@ def file_of(text: str, name: str) -> str:
     UsageError
         as `own_law` does.
     """
-    from .codegen import contact_law
-    from .codegen.sources import source
-    from .note.governing import Pin
-    from .program import program
-    from .time_limit import TimeLimitError, time_limit
-    from .variant import Variant
-
     law, loss = own_law(text)
     if name == "about.json":
         proved = False

@@ -59,7 +59,8 @@ def run(
         complain(name, "interrupted")
         status = INTERRUPTED
     except OSError as fault:
-        complain(name, _describe(fault))
+        place = "" if fault.filename is None else f"{fault.filename}: "
+        complain(name, place + (fault.strerror or str(fault)))
         status = USAGE
     except tuple(expected) as fault:
         complain(name, str(fault))
@@ -138,12 +139,12 @@ def shows_formulas() -> bool:
     return True
 
 
-def print_json(document: object) -> None:
-    """Print one JSON document to standard output. Floats keep all their digits.
+def json_text(document: object) -> str:
+    """Return one JSON document. Floats keep all their digits.
 
     Arrays become lists. NaN and infinity, which JSON lacks, become `null`.
 
-    >>> print_json({"wear_mm": (1e-07, 0.1 + 0.2), "arrest_cycle": math.nan})
+    >>> print(json_text({"wear_mm": (1e-07, 0.1 + 0.2), "arrest_cycle": math.nan}), end="")
     {
       "wear_mm": [
         1e-07,
@@ -152,11 +153,6 @@ def print_json(document: object) -> None:
       "arrest_cycle": null
     }
     """
-    print(json_text(document), end="")
-
-
-def json_text(document: object) -> str:
-    """Return one JSON document, as `print_json` prints it."""
     return json.dumps(plain(document), indent=2, allow_nan=False) + "\n"
 
 
@@ -220,33 +216,21 @@ def count(number: int, noun: str) -> str:
 
 
 class PrintAndStop(argparse.Action):
-    """An option like `--version`: makes a text, prints it and stops."""
-
-    def __init__(
-        self,
-        option_strings: Sequence[str],
-        dest: str,
-        text: Callable[[argparse.ArgumentParser], str],
-        help: str,
-    ) -> None:
-        super().__init__(option_strings, dest, nargs=0, help=help)
-        self.text = text
+    """An option like `--version`: prints the text that its constant makes of the parser."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        print(self.text(parser))
+        print(self.const(parser))
         parser.exit()
 
 
 def add_common_options(parser: argparse.ArgumentParser) -> None:
     """Give the parser of a whole command `--version` and `--print-completion`."""
+    about = "print the version and stop"
+    parser.add_argument("--version", action=PrintAndStop, nargs=0, const=_version, help=about)
+    about = "print a completion script for bash and zsh and stop"
+    script = completion.bash
     parser.add_argument(
-        "--version", action=PrintAndStop, text=_version, help="print the version and stop"
-    )
-    parser.add_argument(
-        "--print-completion",
-        action=PrintAndStop,
-        text=completion.bash,
-        help="print a completion script for bash and zsh and stop",
+        "--print-completion", action=PrintAndStop, nargs=0, const=script, help=about
     )
 
 
@@ -254,12 +238,6 @@ def _version(parser: argparse.ArgumentParser) -> str:
     from importlib.metadata import version  # slower to import than the rest of this module
 
     return f"{parser.prog} {version('derive-wear')}"
-
-
-def _describe(fault: OSError) -> str:
-    if fault.filename is None:
-        return fault.strerror or str(fault)
-    return f"{fault.filename}: {fault.strerror}"
 
 
 def _prepare_output() -> None:

@@ -44,7 +44,7 @@ def named(text: str) -> str:
         if the text is no formula of the grammar.
     """
     from derive.faults import UsageError as NotUnderstood
-    from derive.own_law import normal
+    from derive.law_grammar import normal
 
     try:
         return PREFIX + normal(text)

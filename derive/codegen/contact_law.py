@@ -53,10 +53,9 @@ def _exact_forms(law: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
 
 def formulas(law: ContactLaw) -> tuple[Formula, Formula]:
     """Return p/p_max and phi'/phi at h/sigma = r."""
-    form, exact = law.stable, sp.diff(law.phi, r) / law.phi
-    share = _exact_forms(law)[0] if form.far_value is None else form.far_value
-    slope = sp.cancel(exact) if form.far_steepness is None else form.far_steepness
-    slope = sp.powsimp(slope, deep=True)  # one exponential, not a quotient that overflows
+    share, exact = law.stable.far_value, sp.diff(law.phi, r) / law.phi
+    # one exponential, not a quotient that overflows
+    slope = sp.powsimp(law.stable.far_steepness, deep=True)
     value, relative = "share p/p_max of the largest pressure", "relative slope phi'/phi"
     return (
         Formula(f"share_{law.name}", (r,), equal(share, law.phi), f"{value} at h/sigma = r"),

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*\Z")
 _ADD, _MUL, _POW, _ATOM = range(4)
@@ -35,7 +36,8 @@ class Target:
     ``functions`` maps SymPy functions onto names; ``power`` writes base and integer exponent;
     ``number`` writes a floating-point literal from a decimal string; ``rename`` gives the text of
     a symbol.  ``constant`` and ``parameter`` are formats: of a constant of the run within a
-    function, and of a parameter within ``bind``.
+    function, and of a parameter within ``bind``.  ``both`` joins two relations, and ``sign`` writes
+    that of a relation, given in Python.
     """
 
     name: str
@@ -47,15 +49,17 @@ class Target:
     rename: Callable[[str], str] = str
     constant: str = "c.{}"
     parameter: str = "{}"
+    both: str = "&&"
+    sign: Callable[[str], str] = str
 
 
-def emit(expr: sp.Expr, target: Target) -> str:
-    """Return ``expr`` in the language of ``target``; EmitError if the table lacks a form."""
+def emit(expr: sp.Basic, target: Target) -> str:
+    """Write an expression or a relation in a language; EmitError if its table lacks a form."""
     text, _ = _emit(expr, target)
     return text
 
 
-def _emit(expr: sp.Expr, target: Target) -> tuple[str, int]:
+def _emit(expr: sp.Basic, target: Target) -> tuple[str, int]:
     if isinstance(expr, sp.Symbol):
         if not _IDENTIFIER.match(expr.name):
             raise EmitError(f"{expr.name!r} is no identifier")
@@ -74,6 +78,11 @@ def _emit(expr: sp.Expr, target: Target) -> tuple[str, int]:
         return _product(expr, target)
     if expr.is_Pow:
         return _power(expr, target)
+    if isinstance(expr, sp.And):
+        return f" {target.both} ".join(emit(part, target) for part in expr.args), _ADD
+    if isinstance(expr, Relational):
+        sides = emit(expr.lhs, target), emit(expr.rhs, target)
+        return f" {target.sign(expr.rel_op)} ".join(sides), _ADD
     if type(expr) in target.functions:
         inner = [emit(argument, target) for argument in _ordered(expr)]
         return f"{target.functions[type(expr)]}({', '.join(inner)})", _ATOM
@@ -103,18 +112,14 @@ def _fraction(expr: sp.Add, target: Target) -> tuple[str, int] | None:
 
 
 def _sum(expr: sp.Add, target: Target) -> str:
-    terms = sorted(expr.args, key=lambda term: (term.could_extract_minus_sign(), _rank(term)))
+    """Write positive terms before negative ones, single symbols before products."""
+    terms = sorted(expr.args, key=lambda e: (e.could_extract_minus_sign(), len(e.args), str(e)))
     text = emit(terms[0], target)
     for term in terms[1:]:
         negative = term.could_extract_minus_sign()
         body = _wrapped(-term if negative else term, target, _MUL)
         text += f" - {body}" if negative else f" + {body}"
     return text
-
-
-def _rank(term: sp.Expr) -> tuple[int, str]:
-    """Return the rank of a term in a sum: single symbols before products."""
-    return len(term.args), str(term)
 
 
 def _product(expr: sp.Mul, target: Target) -> tuple[str, int]:
@@ -187,6 +192,7 @@ NUMPY = Target(
     number=str,
     pi="np.pi",
     parameter="data.{}",
+    both="and",
 )
 C = Target(
     name="c",
@@ -207,6 +213,8 @@ FORTRAN = Target(
     pi="3.141592653589793_dp",
     rename=lambda name: _IN_WORDS.get(name, name),
     constant="c%{}",
+    both=".and.",
+    sign=lambda sign: sign.replace("!", "/"),
 )
 JAVASCRIPT = Target(
     name="javascript",
@@ -215,6 +223,7 @@ JAVASCRIPT = Target(
     power=_product_of_equals,
     number=str,
     pi="Math.PI",
+    sign=lambda sign: sign + "=" * (sign in ("==", "!=")),
 )
 
 TARGETS = MappingProxyType({t.name: t for t in (NUMPY, C, FORTRAN, JAVASCRIPT)})

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import sympy as sp
 
 from ..program.function import Assignment
 from ..symbols import QUANTITIES
-from .emit import JAVASCRIPT, NUMPY, Target, emit
+from .emit import JAVASCRIPT, NUMPY, emit
 from .sources import rendered
 
 
@@ -34,50 +35,32 @@ class Formula:
     parts: tuple[Assignment, ...] = ()
 
     @property
-    def kind(self) -> str:
-        """Return the type of the function's result."""
-        return "Real" if isinstance(self.value, sp.Expr) else "Any"
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """Return the parts' expressions and the value."""
+        return (*(value for _, value in self.parts), self.value)
 
     @property
     def data(self) -> tuple[str, ...]:
         """Return the names of the data, in the order of the vocabulary."""
-        used = {s.name for e in (self.value, *(v for _, v in self.parts)) for s in e.free_symbols}
+        used = {symbol.name for each in self.expressions for symbol in each.free_symbols}
         names = used - {a.name for a in self.arguments} - {name.name for name, _ in self.parts}
         known = [name for name in QUANTITIES if name in names]
         return (*known, *sorted(names.difference(known)))
 
-    def text(self, target: Target) -> str:
-        """Return the value in a language."""
-        if isinstance(self.value, sp.Expr):
-            return emit(self.value, target)
-        script = target is JAVASCRIPT
-        strict = {"==": "===", "!=": "!=="} if script else {}
-        relations = self.value.args if isinstance(self.value, sp.And) else (self.value,)
-        return (" && " if script else " and ").join(
-            f"{emit(part.lhs, target)} {strict.get(part.rel_op, part.rel_op)} "
-            f"{emit(part.rhs, target)}"
-            for part in relations
-        )
-
 
 def formula_module(title: str, origin: Sequence[str], formulas: Sequence[Formula]) -> str:
     """Return the source of a module; ``origin`` has the ids of the underlying results."""
+    text = " ".join(emit(each, NUMPY) for formula in formulas for each in formula.expressions)
     return rendered(
         "formulas.numpy",
         title=title,
         origin=origin,
         formulas=formulas,
-        target=NUMPY,
-        emit=emit,
-        numpy=any("np." in _all_text(formula) for formula in formulas),
+        emit=partial(emit, target=NUMPY),
+        numpy="np." in text,
     )
-
-
-def _all_text(formula: Formula) -> str:
-    parts = (emit(value, NUMPY) for _, value in formula.parts)
-    return " ".join([*parts, formula.text(NUMPY)])
 
 
 def formula_script(formulas: Iterable[Formula]) -> str:
     """Return the functions of formulas as the body of a function that returns them."""
-    return rendered("formulas.javascript", formulas=formulas, target=JAVASCRIPT, emit=emit)
+    return rendered("formulas.javascript", formulas=formulas, emit=partial(emit, target=JAVASCRIPT))

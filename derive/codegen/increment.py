@@ -12,7 +12,7 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import sympy as sp
 
@@ -30,8 +30,7 @@ pressure, slip_rate, time_increment = sp.symbols(
 _p, _V, _u_a, _u_c, _sigma_a, _sigma_c = symbols("p V u_a u_c sigma_a sigma_c")
 
 
-@dataclass(frozen=True)
-class Increment:
+class Increment(NamedTuple):
     """The parameters of an increment, and pairs of a state variable and its growth, in order."""
 
     parameters: tuple[sp.Symbol, ...]
@@ -53,7 +52,7 @@ def increment(variant: Variant) -> Increment:
         laws.append((_u_a, u_a_rate))
         laws += [(_sigma_a, sigma_a_rate)] * variant.pin.rough
     known = {_p: pressure, _V: slip_rate}
-    wear = {rate("u_c"): growth_of("u_c"), rate("u_a"): growth_of("u_a")}
+    wear = {rate(name): sp.Symbol(f"growth_{name}", real=True) for name in ("u_c", "u_a")}
     growth = []
     for field, statement in laws:
         name = field.func.__name__
@@ -63,11 +62,6 @@ def increment(variant: Variant) -> Increment:
     used = set().union(*(value.free_symbols for _, value in growth))
     data = symbols("K_c H_c f_c K_a H_a f_a")
     return Increment(tuple(symbol for symbol in data if symbol in used), tuple(growth))
-
-
-def growth_of(name: str) -> sp.Symbol:
-    """Return the symbol of the growth of a state variable."""
-    return sp.Symbol(f"growth_{name}", real=True)
 
 
 def contact(variant: Variant) -> Function:

@@ -10,10 +10,14 @@ examples:
 from __future__ import annotations
 
 import difflib
+from typing import TYPE_CHECKING
 
 from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 from derive.faults import UsageError
+
+if TYPE_CHECKING:
+    from derive.variant import Variant
 
 TARGETS = ("numpy", "c", "header", "fortran", "javascript")  # here without importing SymPy
 
@@ -28,40 +32,38 @@ def add_arguments(parser: Parser) -> None:
     declare(parser, "-o, --output FILE", "write to a file")
 
 
-def variant_names() -> tuple[str, ...]:
-    """Return the names of the variants, with their law."""
+def variants() -> dict[str, Variant]:
+    """Return the variants by their names, with their law."""
     from derive.variant import VARIANTS
 
-    return tuple(f"{variant.law.name}/{variant.name}" for variant in VARIANTS)
+    return {f"{variant.law.name}/{variant.name}": variant for variant in VARIANTS}
 
 
-def _short_names() -> tuple[str, ...]:
+def _short_names() -> list[str]:
     """Return the names of the variants, without the default law."""
-    return tuple(name.removeprefix("tanh/") for name in variant_names())
+    return [name.removeprefix("tanh/") for name in variants()]
 
 
 def execute(options: Options) -> Answer:
     """Print or write the source."""
     from derive.codegen.sources import source
     from derive.program import program
-    from derive.variant import VARIANTS
 
-    names = variant_names()
+    known = variants()
     if options.list:
-        return Answer(list(names), lambda: "\n".join(names))
+        return Answer(list(known), lambda: "\n".join(known))
     if options.variant is None:
         raise UsageError("name a variant; `derive code --list` shows them")
     name = options.variant if "/" in options.variant else f"tanh/{options.variant}"
-    if name not in names:
-        near = difflib.get_close_matches(name, names, n=1, cutoff=0.0)
+    if name not in known:
+        near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
         raise UsageError(f"{options.variant}: no such variant; did you mean {near[0]}?")
-    variant = VARIANTS[names.index(name)]
-    functions = program(variant)
+    functions = program(known[name])
     text = source(functions, options.target)
     document = {
         "variant": name,
         "target": options.target,
-        "equations": list(variant.equations),
+        "equations": list(functions.equations),
         "operations": functions.operations,
         "source": text,
     }

@@ -47,10 +47,12 @@ def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
     from derive.check import step_checks
     from derive.coq.steps import proved_by_coq
     from derive.kernel import step_key
+    from derive.typeset.derivation import is_hypothesis
     from derive.typeset.display import latex
 
     parents = [numbers[step_key(parent)] for parent in step.parents]
     outcomes = step_checks(step)
+    kind = "given" if is_hypothesis(step) else "proved"
     return {
         "step": numbers[step_key(step)],
         "name": step.name or None,
@@ -61,19 +63,11 @@ def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
         "parents": parents,
         "assumptions": list(dict.fromkeys(condition.text for condition in step.conditions)),
         "hypotheses": [h.text for h in step.hypotheses],
-        "status": _status(step, all(check.passed for check in outcomes)),
+        "status": kind if all(check.passed for check in outcomes) else "fails",
         "coq": proved_by_coq(step),
         "remark": step.remark or None,
         "checks": [{"kind": c.kind, "passed": c.passed, "detail": c.detail} for c in outcomes],
     }
-
-
-def _status(step: Judgement, passed: bool) -> str:
-    if not passed:
-        return "fails"
-    if not step.parents and type(step.rule).__name__ == "Assume":
-        return "given"
-    return "proved"
 
 
 def _text(row: Mapping[str, Any], step: Judgement) -> str:

@@ -25,7 +25,7 @@ from ..variant import Variant
 from . import functions as parts
 from . import gradient
 from .function import Assignment, Function
-from .relations import Relations, groups
+from .relations import groups
 from .root import root
 from .symbols import pin_wear_sign
 
@@ -73,35 +73,35 @@ class Program:
 @cache
 def program(variant: Variant) -> Program:
     """Return the complete program of a variant."""
-    relations = Relations(variant)
-    functions = parts.rigid(relations)
+    functions: tuple[Function, ...]
+    joint: tuple[Function, ...] = ()
     if variant.compliant:
-        functions = (*root(relations), *parts.compliant(relations))
+        functions = (*root(variant), *parts.compliant(variant))
+    else:
+        functions = rate, slope = parts.rigid(variant)
+        joint = (parts.rate_and_slope(rate, slope),)
     hoisted = groups(variant)
     if variant.ends_at_3_sigma:
-        functions += parts.margin(relations)
-        functions += parts.limited() if variant.compliant else ()
-        hoisted += parts.constants(relations)
-    functions += (parts.fields(relations),)
-    plain = _program(variant, hoisted, functions, parts.field_names(variant))
-    pair = () if variant.compliant else (parts.rate_and_slope(*functions[:2]),)
+        constants, of_margin = parts.margin(variant)
+        hoisted += constants
+        functions += (*of_margin, *(parts.limited() if variant.compliant else ()))
+    names, fields = parts.fields(variant)
+    plain = _program(variant, hoisted, (*functions, fields), names)
     gradients = (
-        gradient.rate_gradient(relations, [name for name, _ in plain.constants]),
+        gradient.rate_gradient(variant, [name for name, _ in plain.constants]),
         gradient.parameter_gradient(plain.constants, plain.parameters),
     )
-    return replace(plain, joint_functions=(*pair, *gradients))
+    return replace(plain, joint_functions=(*joint, *gradients))
 
 
 @cache
 def margin_program(pin: Pin) -> Program:
     """Return the functions that loss of contact adds; they depend on neither law nor support."""
-    relations = Relations(Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True))
-    hoisted = (*groups(relations.variant), *parts.constants(relations))
-    functions = (*parts.margin(relations), *parts.limited())
-    plain = _program(relations.variant, hoisted, functions)
-    names = [name for name, _ in plain.constants]
+    variant = Variant(TANH, compliant=False, pin=pin, ends_at_3_sigma=True)
+    constants, functions = parts.margin(variant)
+    plain = _program(variant, (*groups(variant), *constants), (*functions, *parts.limited()))
     gradients = (
-        gradient.margin_gradient(parts.margin(relations)[0], names),
+        gradient.margin_gradient(functions[0], [name for name, _ in plain.constants]),
         gradient.parameter_gradient(plain.constants, plain.parameters),
     )
     return replace(plain, joint_functions=gradients)
@@ -113,26 +113,20 @@ def _program(
     functions: tuple[Function, ...],
     names: tuple[str, ...] = (),
 ) -> Program:
-    """Hoist the constants of the functions; the parameters are the symbols that these need."""
-    constants = _constants(hoisted, functions)
-    used = set().union(*(expr.free_symbols for _, expr in constants))
-    parameters = used - {name for name, _ in hoisted} - {pin_wear_sign}
-    return Program(variant, tuple(sorted(parameters, key=_order)), constants, functions, names)
+    """Return a program with the constants that its functions need: parameters, then hoisted ones.
 
-
-def _constants(
-    hoisted: Sequence[Assignment], functions: Sequence[Function]
-) -> tuple[Assignment, ...]:
-    """Return the constants that the functions use: plain parameters, then hoisted expressions."""
+    The parameters are the symbols that these need.
+    """
     used = set().union(*(function.free_symbols for function in functions))
-    named = {name for name, _ in hoisted}
-    needed = used & named
+    needed = set(used)
     for name, value in reversed(hoisted):
         if name in needed:
-            needed |= value.free_symbols & named
-    plain = sorted(used - named, key=_order)
-    kept = ((name, value) for name, value in hoisted if name in needed)
-    return (*((name, name) for name in plain), *kept)
+            needed |= value.free_symbols
+    named = {name for name, _ in hoisted}
+    plain = ((name, name) for name in sorted(used - named, key=_order))
+    constants = (*plain, *(each for each in hoisted if each[0] in needed))
+    parameters = tuple(sorted(needed - named - {pin_wear_sign}, key=_order))
+    return Program(variant, parameters, constants, functions, names)
 
 
 def _order(parameter: sp.Symbol) -> int:

@@ -18,30 +18,6 @@ from .symbols import number, u
 
 Assignment = tuple[sp.Symbol, sp.Expr]
 
-MEANINGS = {
-    "rate": "wear rate of the bearing, du_c/dt, in mm/s",
-    "slope": "derivative of the wear rate with respect to u_c, in 1/s",
-    "rate_and_slope": "wear rate in mm/s and its derivative with respect to u_c in 1/s",
-    "residual": "residual of the equation for the contact pressure p, in MPa",
-    "undeflected": "closure over roughness with an undeflected support",
-    "softness": "deflection of the support per pressure, over the roughness, in 1/MPa",
-    "start": "estimate of the pressure with the support, in MPa",
-    "lower": "a pressure below that with the support, in MPa",
-    "upper": "a pressure above that with the support, in MPa",
-    "newton": "the pressure after a step of Newton's iteration from p, in MPa",
-    "fields": "every field at given wear and load, in mm and MPa",
-    "margin": "3 sigma - h with an undeflected support, in mm: contact where it is not negative",
-    "margin_slope": "derivative of the margin with respect to u_c; with respect to U_a it is 1",
-    "margin_terms": "sum of the absolute terms of the margin, in mm, the scale of its rounding",
-    "limited_pressure": "contact pressure in MPa: root of the residual, or that with h at 3 sigma",
-    "limited_slope": "derivative of the wear rate with respect to u_c with h at 3 sigma, in 1/s",
-    "rate_gradient": "derivatives of the wear rate with respect to U_a and to the constants",
-    "margin_gradient": "derivatives of the margin with respect to the constants; to U_a it is 1",
-    "parameter_gradient": "derivatives with respect to the parameters, from those by the constants",
-    "contact_pressure": "contact pressure in MPa at closure and roughness in mm, and its slope",
-}
-"""The results of functions, by name."""
-
 
 @dataclass(frozen=True)
 class Function:
@@ -51,11 +27,6 @@ class Function:
     arguments: tuple[sp.Symbol, ...]
     assignments: tuple[Assignment, ...]
     results: tuple[sp.Expr, ...]
-
-    @property
-    def meaning(self) -> str:
-        """Return a description of the results."""
-        return MEANINGS[self.name]
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
@@ -101,19 +72,14 @@ def with_slopes(
     slopes: dict[sp.Symbol, sp.Expr] = {}
     for name, expr in assignments:
         result.append((name, expr))
-        slope = reusing(_total(expr, slopes), name, expr)
+        inner = (sp.diff(expr, symbol) * slope for symbol, slope in slopes.items())
+        slope = reusing(sp.Add(sp.diff(expr, u), *inner), name, expr)
         if slope == 0:
             continue
         slopes[name] = slope if slope.is_Atom else number(f"{name}_u")
         if not slope.is_Atom:
             result.append((slopes[name], slope))
     return tuple(result), slopes
-
-
-def _total(expr: sp.Expr, slopes: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """Return d expr/du by the chain rule, given the slopes of intermediates."""
-    inner = (sp.diff(expr, name) * slope for name, slope in slopes.items())
-    return sp.Add(sp.diff(expr, u), *inner)
 
 
 def reusing(slope: sp.Expr, name: sp.Symbol, expr: sp.Expr) -> sp.Expr:

@@ -13,7 +13,6 @@ Key results
     rate_and_slope  both at once
     compliant       rate and slope at the pressure with a compliant support
     fields          every field at given wear and load
-    constants       start and growth of a linear margin, named
     margin          3 sigma - h with an undeflected support, its slope, the size of its terms
     limited         the pressure on a compliant support, which relaxes no further than h = 3 sigma
 """
@@ -27,7 +26,7 @@ from ..note.governing import Pin
 from ..symbols import symbol
 from ..variant import Variant
 from .function import Assignment, Function, pruned, with_slopes
-from .relations import Relations
+from .relations import closure, pin_wear, roughnesses
 from .symbols import (
     compliance,
     fresh_margin,
@@ -58,15 +57,15 @@ def law(variant: Variant) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
     return intermediates, form.value.subs(r, ratio), form.slope.subs(r, ratio)
 
 
-def to_ratio(relations: Relations, deflected: bool) -> tuple[Assignment, ...]:
+def to_ratio(variant: Variant, deflected: bool) -> tuple[Assignment, ...]:
     """Return the assignments of the roughnesses, the closure and their ratio."""
-    return (*relations.roughnesses(), relations.closure(deflected), (ratio, h / sigma))
+    return (*roughnesses(variant), closure(variant, deflected), (ratio, h / sigma))
 
 
-def rigid(relations: Relations) -> tuple[Function, ...]:
+def rigid(variant: Variant) -> tuple[Function, Function]:
     """Return the rate of wear and its slope."""
-    names, value, slope = law(relations.variant)
-    sloped, slopes = with_slopes(to_ratio(relations, deflected=False))
+    names, value, slope = law(variant)
+    sloped, slopes = with_slopes(to_ratio(variant, deflected=False))
     assignments = (*sloped, *names)
     rate, change = largest_rate * value, largest_rate * slope * slopes[ratio]
     return (
@@ -81,10 +80,10 @@ def rate_and_slope(rate: Function, slope: Function) -> Function:
     return pruned("rate_and_slope", rate.arguments, assignments, *rate.results, *slope.results)
 
 
-def compliant(relations: Relations) -> tuple[Function, ...]:
+def compliant(variant: Variant) -> tuple[Function, Function]:
     """Return the rate of wear at a pressure, and its slope at the root."""
-    names, _, slope = law(relations.variant)
-    sloped, slopes = with_slopes(to_ratio(relations, deflected=True))
+    names, _, slope = law(variant)
+    sloped, slopes = with_slopes(to_ratio(variant, deflected=True))
     stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
     change = wear_per_pressure * p_max * slope * slopes[ratio] / stiffening[0]
     return (
@@ -93,71 +92,56 @@ def compliant(relations: Relations) -> tuple[Function, ...]:
     )
 
 
-def field_names(variant: Variant) -> tuple[str, ...]:
-    """Return the fields of a variant, by name, in order."""
-    presence = {
-        "u_a": variant.pin.wears,
-        "sigma_a": variant.pin.rough,
-        "sigma_c": True,
-        "sigma": True,
-        "h": True,
-        "U_c": variant.compliant,
-        "p": True,
-    }
-    return tuple(name for name, present in presence.items() if present)
-
-
-def fields(relations: Relations) -> Function:
-    """Return the function of all fields."""
-    variant = relations.variant
+def fields(variant: Variant) -> tuple[tuple[str, ...], Function]:
+    """Return the names of the fields that a variant has, and the function of them all."""
+    pin = variant.pin
     intermediates, value, _ = law(variant)
-    assignments = (*to_ratio(relations, deflected=variant.compliant), *intermediates)
-    if variant.pin is Pin.ROUGH:
+    assignments = (*to_ratio(variant, deflected=variant.compliant), *intermediates)
+    if pin is Pin.ROUGH:
         assignments = ((sigma_a, symbol("sigma_a0")), *assignments)
-    values: dict[str, sp.Expr] = {
-        "u_a": relations.pin_wear(),
-        "sigma_a": sigma_a,
-        "sigma_c": sigma_c if variant.pin.rough else sigma,
-        "sigma": sigma,
-        "h": h,
-        "U_c": compliance * pressure,
-        "p": pressure if variant.compliant else p_max * value,
-    }
-    arguments = (pressure, u, load) if variant.compliant else (u, load)
-    results = (values[name] for name in field_names(variant))
-    return pruned("fields", arguments, assignments, *results)
-
-
-def constants(relations: Relations) -> tuple[Assignment, ...]:
-    """Return the initial value and growth of a linear margin; no constants for another.
-
-    One roughness is added last: where 3 sigma and h are close, both steps are exact.
-    """
-    if relations.variant.pin.rough:
-        return ()
-    values = dict(to_ratio(relations, deflected=False))
-    most = (relations.variant.law.cutoff - 1) * values[sigma] - values[h]
-    fresh = {u: 0, load: 0}
-    return (
-        (most_of_margin, most.subs(fresh)),
-        (fresh_margin, most_of_margin + values[sigma].subs(fresh)),
-        (most_of_gain, sp.diff(most, u)),
-        (margin_gain, most_of_gain + sp.diff(values[sigma], u)),
+    possible = (
+        ("u_a", pin_wear(variant), pin.wears),
+        ("sigma_a", sigma_a, pin.rough),
+        ("sigma_c", sigma_c if pin.rough else sigma, True),
+        ("sigma", sigma, True),
+        ("h", h, True),
+        ("U_c", compliance * pressure, variant.compliant),
+        ("p", pressure if variant.compliant else p_max * value, True),
     )
+    names, results = zip(*((name, form) for name, form, has in possible if has), strict=True)
+    arguments = (pressure, u, load) if variant.compliant else (u, load)
+    return names, pruned("fields", arguments, assignments, *results)
 
 
-def margin(relations: Relations) -> tuple[Function, ...]:
-    """Return the margin, its slope and the sum of its absolute terms."""
-    assignments, value, slope = _margin(relations)
-    terms = sp.Add.make_args(sp.expand(value.subs(dict([relations.closure(deflected=False)]))))
-    return (
+def margin(variant: Variant) -> tuple[tuple[Assignment, ...], tuple[Function, ...]]:
+    """Return the margin, its slope and the sum of its absolute terms, after their constants.
+
+    The constants are the initial value and the growth of a linear margin.  One roughness is added
+    last: where 3 sigma and h are close, both steps are exact.
+    """
+    cutoff, chain = variant.law.cutoff, to_ratio(variant, deflected=False)[:-1]
+    constants: tuple[Assignment, ...] = ()
+    assignments, slopes = with_slopes(chain)
+    value, slope = cutoff * sigma - h, cutoff * slopes.get(sigma, 0) - slopes[h]
+    if not variant.pin.rough:
+        values, fresh = dict(chain), {u: 0, load: 0}
+        most = (cutoff - 1) * values[sigma] - values[h]
+        constants = (
+            (most_of_margin, most.subs(fresh)),
+            (fresh_margin, most_of_margin + values[sigma].subs(fresh)),
+            (most_of_gain, sp.diff(most, u)),
+            (margin_gain, most_of_gain + sp.diff(values[sigma], u)),
+        )
+        assignments, value, slope = (), fresh_margin + margin_gain * u + load, margin_gain
+    terms = sp.Add.make_args(sp.expand(value.subs([chain[-1]])))
+    return constants, (
         pruned("margin", (u, load), assignments, value),
         pruned("margin_slope", (u,), assignments, slope),
         pruned("margin_terms", (u, load), assignments, sp.Add(*map(sp.Abs, terms))),
     )
 
 
-def limited() -> tuple[Function, ...]:
+def limited() -> tuple[Function, Function]:
     """Return the pressure on a compliant support that relaxes no further than h = 3 sigma, and
     the slope of the rate while h stays there."""
     held = sp.Min(pressure, sp.Max(0, value_of_margin / compliance))
@@ -166,12 +150,3 @@ def limited() -> tuple[Function, ...]:
         pruned("limited_pressure", (pressure, value_of_margin, compliance), (), held),
         pruned("limited_slope", (slope_of_margin, compliance, wear_per_pressure), (), change),
     )
-
-
-def _margin(relations: Relations) -> tuple[tuple[Assignment, ...], sp.Expr, sp.Expr]:
-    """Return the assignments of the margin, its value and its derivative with respect to u."""
-    if not relations.variant.pin.rough:
-        return (), fresh_margin + margin_gain * u + load, margin_gain
-    cutoff = relations.variant.law.cutoff
-    assignments, slopes = with_slopes(to_ratio(relations, deflected=False)[:-1])
-    return assignments, cutoff * sigma - h, cutoff * slopes.get(sigma, 0) - slopes[h]

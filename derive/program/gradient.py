@@ -18,9 +18,9 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from ..variant import Variant
 from .function import Assignment, Function, pruned, reusing
 from .functions import law, p_max, to_ratio
-from .relations import Relations
 from .symbols import compliance, largest_rate, load, number, pressure, ratio, sigma, u
 from .symbols import wear_per_pressure as per_pressure
 
@@ -32,12 +32,11 @@ def by_constant(name: str) -> sp.Symbol:
     return number(f"by_{name}")
 
 
-def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Function:
+def rate_gradient(variant: Variant, constants: Sequence[sp.Symbol]) -> Function:
     """Return the derivatives of the rate with respect to the load and to each constant."""
-    compliant = relations.variant.compliant
-    names, value, slope = law(relations.variant)
-    chain = to_ratio(relations, deflected=compliant)
-    if compliant:  # the pressure solves p = p_max phi(ratio), in which ratio depends on p
+    names, value, slope = law(variant)
+    chain = to_ratio(variant, deflected=variant.compliant)
+    if variant.compliant:  # the pressure solves p = p_max phi(ratio), in which ratio depends on p
         stiffening = number("residual_p"), 1 - p_max * slope * compliance / sigma
         names = (*names, stiffening)
         seed = per_pressure * p_max * slope / stiffening[0]
@@ -47,7 +46,7 @@ def rate_gradient(relations: Relations, constants: Sequence[sp.Symbol]) -> Funct
     adjoints[ratio] = seed
     sweep = _reverse_sweep(chain, adjoints, "rate_{}")
     slopes = (adjoints.get(name, sp.Integer(0)) for name in (load, *constants))
-    arguments = (pressure, u, load) if compliant else (u, load)
+    arguments = (pressure, u, load) if variant.compliant else (u, load)
     return pruned("rate_gradient", arguments, (*chain, *names, *sweep), *slopes)
 
 

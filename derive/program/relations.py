@@ -4,13 +4,14 @@ Overview
     The judgements of `derive.note` are about functions of time.  Here they become assignments of
     numbers, with named constants for the combinations that do not change during a run.
 Key results
-    groups       the named constants of a run
-    Relations    roughness, closure and wear of the pin, as assignments
+    groups        the named constants of a run
+    roughnesses   the assignments of the roughnesses
+    closure       that of the closure
+    pin_wear      the wear of the pin
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 
 import sympy as sp
@@ -46,6 +47,46 @@ def groups(variant: Variant) -> tuple[Assignment, ...]:
     return tuple(constants)
 
 
+def roughnesses(variant: Variant) -> tuple[Assignment, ...]:
+    """Return the assignments of sigma_a, sigma_c (where there are two) and sigma."""
+    model, pin = variant.model, variant.pin
+    bearing = _plain(model.roughness_of_bearing.claim.rhs)
+    if not pin.rough:
+        return ((named.sigma, bearing),)
+    rough, combined = model.roughness_of_pin, _plain(model.roughness.claim.rhs)
+    if not pin.wears:
+        combined = combined.subs(named.sigma_a, _plain(rough.claim.rhs))
+        return (named.sigma_c, bearing), (named.sigma, combined)
+    of_pin = _hoisted(_plain(substitute(rough, _wear_of_pin(variant)).claim.rhs), variant)
+    return (named.sigma_a, of_pin), (named.sigma_c, bearing), (named.sigma, combined)
+
+
+def closure(variant: Variant, deflected: bool) -> Assignment:
+    """Return the assignment of h; the undeflected one is that of a rigid support.
+
+    It is linear in the sign of pin wear, and determined by the closures for both signs.
+    """
+    signs = []
+    for opening in (True, False):
+        model = condensed(variant.law, opening, variant.pin)
+        deflection = model.deflection if deflected else assume(RIGID)
+        closed = substitute(model.closure, _wear_of_pin(variant), deflection)
+        signs.append(_plain(closed.claim.rhs))
+    opening, closing = signs
+    either = (opening + closing) / 2 + named.pin_wear_sign * (opening - closing) / 2
+    return named.h, _hoisted(either, variant).subs(1 / k, named.compliance)
+
+
+def pin_wear(variant: Variant) -> sp.Expr:
+    """Return u_a in terms of the wear of the bearing."""
+    return _plain(_wear_of_pin(variant).claim.rhs)
+
+
+def _wear_of_pin(variant: Variant) -> Judgement:
+    worn = variant.model.wear_of_pin
+    return substitute(worn, Solve(K_a)(_kappa())) if variant.pin.wears else worn
+
+
 @cache
 def _kappa() -> Judgement:
     """Return the wear of the pin per wear of the bearing."""
@@ -61,59 +102,10 @@ def _plain(expr: sp.Expr) -> sp.Expr:
     )
 
 
-@dataclass(frozen=True)
-class Relations:
-    """The relations of a variant in the program's symbols."""
-
-    variant: Variant
-
-    def pin_wear(self) -> sp.Expr:
-        """Return u_a in terms of the wear of the bearing."""
-        return _plain(self._wear_of_pin().claim.rhs)
-
-    def roughnesses(self) -> tuple[Assignment, ...]:
-        """Return the assignments of sigma_a, sigma_c (where there are two) and sigma."""
-        model, pin = self.variant.model, self.variant.pin
-        bearing = _plain(model.roughness_of_bearing.claim.rhs)
-        if not pin.rough:
-            return ((named.sigma, bearing),)
-        rough = model.roughness_of_pin
-        if pin.wears:
-            rough = substitute(rough, self._wear_of_pin())
-        pin_roughness = self._hoisted(_plain(rough.claim.rhs))
-        combined = _plain(model.roughness.claim.rhs)
-        if pin.wears:
-            return (
-                (named.sigma_a, pin_roughness),
-                (named.sigma_c, bearing),
-                (named.sigma, combined),
-            )
-        combined = combined.subs(named.sigma_a, pin_roughness)
-        return (named.sigma_c, bearing), (named.sigma, combined)
-
-    def closure(self, deflected: bool) -> Assignment:
-        """Return the assignment of h; the undeflected one is that of a rigid support.
-
-        It is linear in the sign of pin wear, and determined by the closures for both signs.
-        """
-        opening, closing = (self._closure(sign, deflected) for sign in (True, False))
-        either = (opening + closing) / 2 + named.pin_wear_sign * (opening - closing) / 2
-        return named.h, self._hoisted(either).subs(1 / k, named.compliance)
-
-    def _closure(self, opening: bool, deflected: bool) -> sp.Expr:
-        """Return h for one sign of pin wear: opening or closing the gap."""
-        model = condensed(self.variant.law, opening, self.variant.pin)
-        deflection = model.deflection if deflected else assume(RIGID)
-        return _plain(substitute(model.closure, self._wear_of_pin(), deflection).claim.rhs)
-
-    def _wear_of_pin(self) -> Judgement:
-        worn = self.variant.model.wear_of_pin
-        return substitute(worn, Solve(K_a)(_kappa())) if self.variant.pin.wears else worn
-
-    def _hoisted(self, expr: sp.Expr) -> sp.Expr:
-        """Write the coefficients of a polynomial in the state as named constants."""
-        collected = sp.collect(sp.expand(expr), named.u)
-        for name, value in groups(self.variant):
-            if name is not kappa:
-                collected = collected.subs(value, name)
-        return collected
+def _hoisted(expr: sp.Expr, variant: Variant) -> sp.Expr:
+    """Write the coefficients of a polynomial in the state as named constants."""
+    collected = sp.collect(sp.expand(expr), named.u)
+    for name, value in groups(variant):
+        if name is not kappa:
+            collected = collected.subs(value, name)
+    return collected

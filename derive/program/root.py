@@ -18,9 +18,10 @@ from functools import cache
 import sympy as sp
 
 from ..laws import ContactLaw, r
+from ..variant import Variant
 from .function import Assignment, Function, pruned
 from .functions import law, p_max, to_ratio
-from .relations import Relations
+from .relations import roughnesses
 from .symbols import compliance, h, load, number, pressure, ratio, sigma, u
 
 undeflected, softness = map(number, ("undeflected", "softness"))
@@ -30,12 +31,12 @@ per pressure, over sigma."""
 rise, level, grown, height = map(number, ("rise", "level", "grown", "height"))
 
 
-def root(relations: Relations) -> tuple[Function, ...]:
+def root(variant: Variant) -> tuple[Function, ...]:
     """Return the equation of the pressure, bounds of its root, a start and Newton's step."""
-    names, value, slope = law(relations.variant)
-    edge = _edge(relations.variant.law)
+    names, value, slope = law(variant)
+    edge = _edge(variant.law)
     of_equation = (undeflected, softness)
-    law_at = (*to_ratio(relations, deflected=True), *names)
+    law_at = (*to_ratio(variant, deflected=True), *names)
     step = (
         (ratio, undeflected + softness * pressure),
         *names,
@@ -44,9 +45,9 @@ def root(relations: Relations) -> tuple[Function, ...]:
     stepped = (p_max * value + rise * pressure) / (1 + rise)
     return (
         pruned("residual", (pressure, u, load), law_at, pressure - p_max * value),
-        pruned("undeflected", (u, load), to_ratio(relations, deflected=False)[:-1], h / sigma),
-        pruned("softness", (u,), relations.roughnesses(), compliance / sigma),
-        _start(relations.variant.law),
+        pruned("undeflected", (u, load), to_ratio(variant, deflected=False)[:-1], h / sigma),
+        pruned("softness", (u,), roughnesses(variant), compliance / sigma),
+        _start(variant.law),
         pruned("lower", of_equation, (), sp.Max(0, sp.Min(*edge))),
         pruned("upper", of_equation, (), sp.Max(*edge)),
         pruned("newton", (pressure, *of_equation), step, stepped),
@@ -93,9 +94,7 @@ def tail(of: ContactLaw) -> tuple[sp.Expr, sp.Expr]:
     (exp(8), 4)
     """
     form = of.stable
-    value = of.phi if form.far_value is None else form.far_value
-    steepness = sp.diff(of.phi, r) / of.phi if form.far_steepness is None else form.far_steepness
-    m = -sp.limit(steepness.rewrite(sp.exp), r, sp.oo)
+    m = -sp.limit(form.far_steepness.rewrite(sp.exp), r, sp.oo)
     if not (m.is_finite and m.is_positive):
         return sp.Integer(0), sp.Integer(0)
-    return sp.limit(value.rewrite(sp.exp) * sp.exp(m * r), r, sp.oo), m
+    return sp.limit(form.far_value.rewrite(sp.exp) * sp.exp(m * r), r, sp.oo), m

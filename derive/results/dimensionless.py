@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..dimensions import dimension
+from ..dimensions import BASE, parse_unit
 from ..equations import stated
 from ..kernel import Judgement
 from ..note import condensed
@@ -26,7 +26,7 @@ from ..rules.algebra import Consequence, Multiply
 from ..rules.assumption import define, defined
 from ..rules.calculus import change_clock
 from ..rules.inequalities import Arithmetic
-from ..symbols import symbols, t
+from ..symbols import QUANTITIES, symbols, t
 
 U_a, u_c, p, h_0, U, k, T, V = symbols("U_a u_c p h_0 U k T V")
 f_a, f_c, K_a, K_c, H_a, H_c, p_max = symbols("f_a f_c K_a K_c H_a H_c p_max")
@@ -65,8 +65,8 @@ def count(data: tuple[sp.Symbol, ...]) -> tuple[int, int]:
     >>> count(ONE)
     (9, 3)
     """
-    rows = [list(dimension(datum) or ()) for datum in data]
-    return len(data), sp.Matrix([[sp.Rational(str(x)) for x in row] for row in rows]).rank()
+    units = [parse_unit(QUANTITIES[datum.name].unit).as_powers_dict() for datum in data]
+    return len(data), sp.Matrix([[unit[base] for base in BASE] for unit in units]).rank()
 
 
 def _scaled(

@@ -29,6 +29,7 @@ _ROWS = 6
 _SHORT = 0.5  # greatest width of a row that shares a line, as a share of the line
 _SPACED = re.compile(r"\s*&")
 _SIZES = ((r"\bigl", r"\bigr"), (r"\biggl", r"\biggr"), (r"\Biggl", r"\Biggr"))
+_END = re.compile(r"[&,.;)\]|]|\\(?:[Bb]igg?r|q?quad)")  # what ends a product
 _SYSTEM = re.compile(
     r"(?P<open>(?:\\left\\\{\s*)?\\begin\{aligned\})(?P<rows>.*)"
     r"(?P<close>\\end\{aligned\}(?:\s*\\right\.)?[.,;]?)",
@@ -107,12 +108,9 @@ def _lines(row: str, limit: float, indent: float = _INDENT) -> list[str]:
         if total(first) <= limit and max(map(total, others), default=0.0) <= limit - indent:
             break
     start = source(first) if any(piece.tex == "&" for piece in first) else _aligned(first)
-    return [start.strip(), *(rf"&\qquad {_unaligned(line).strip()}" for line in others)]
-
-
-def _unaligned(line: tuple[Piece, ...]) -> str:
-    """Return a continuation line, aligned by its indent instead of a point of alignment."""
-    return source(piece for piece in line if piece.tex != "&")
+    # a continuation line is aligned by its indent, not at a point of its own
+    rest = (source(piece for piece in line if piece.tex != "&") for line in others)
+    return [start.strip(), *(rf"&\qquad {line.strip()}" for line in rest)]
 
 
 def _aligned(line: tuple[Piece, ...]) -> str:
@@ -126,7 +124,7 @@ def _aligned(line: tuple[Piece, ...]) -> str:
 def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
     """Return the pieces, with those opened that fill most of a line or more."""
     opened: list[Piece] = []
-    for piece in pieces:
+    for place, piece in enumerate(pieces):
         if piece.kind == "cases" and piece.width > limit:
             opened.append(_stacked(piece, limit))
         elif piece.kind == "fence" and {part.kind for part in piece.parts[0]} == {"cases"}:
@@ -137,7 +135,8 @@ def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
         elif piece.kind == "root" and piece.width > 0.9 * limit:
             opened += _open_up(_as_power(piece), limit)
         elif piece.kind == "fraction" and piece.width > 0.9 * limit:
-            opened += _open_up(_as_product(piece, limit), limit)
+            followed = _is_factor(pieces[place + 1 :])
+            opened += _open_up(_as_product(piece, limit, followed), limit)
         else:
             opened.append(piece)
     return tuple(opened)
@@ -172,13 +171,17 @@ def _as_power(root: Piece) -> tuple[Piece, ...]:
     return _bracketed(root.parts[0], root.depth), Piece("^{1/2}", 1.0, depth=root.depth)
 
 
-def _as_product(fraction: Piece, limit: float) -> tuple[Piece, ...]:
-    """Return a fraction as a quotient on the line, or a product with 1/denominator if narrow."""
+def _as_product(fraction: Piece, limit: float, followed: bool) -> tuple[Piece, ...]:
+    """Return a fraction as a quotient on the line, or a product with 1/denominator if narrow.
+
+    A quotient that a factor follows is bracketed: [a]/[b] c may be read as [a]/([b] c).
+    """
     numerator, denominator = fraction.parts
     above = _bracketed(numerator, fraction.depth)
     if total(denominator) > 0.6 * limit:
         slash = Piece(r"\Big/", 0.8, depth=fraction.depth)
-        return above, slash, _bracketed(denominator, fraction.depth)
+        quotient = above, slash, _bracketed(denominator, fraction.depth)
+        return (_bracketed(quotient, fraction.depth),) if followed else quotient
     below = Piece(
         rf"\frac{{1}}{{{source(denominator)}}}",
         total(denominator) + 0.25,
@@ -186,6 +189,14 @@ def _as_product(fraction: Piece, limit: float) -> tuple[Piece, ...]:
         depth=fraction.depth,
     )
     return below, above
+
+
+def _is_factor(pieces: tuple[Piece, ...]) -> bool:
+    """Return whether pieces begin with a factor of what is to their left."""
+    first = next((piece for piece in pieces if not piece.tex.isspace()), None)
+    return (
+        first is not None and first.kind not in ("relation", "sign") and not _END.match(first.tex)
+    )
 
 
 def _bracketed(pieces: tuple[Piece, ...], depth: int) -> Piece:
@@ -209,12 +220,8 @@ def _fill(pieces: tuple[Piece, ...], limit: float, indent: float) -> list[tuple[
 
 def _cost(start: Piece, filled: float) -> float:
     """Return the cost of a line that is filled to this share, if the next one starts there."""
-    return start.depth + _emptiness(filled) - (0.5 if start.kind == "relation" else 0.0)
-
-
-def _emptiness(filled: float) -> int:
-    """Return the cost of an incomplete line, as a number of levels of brackets."""
-    return 0 if filled > 0.5 else 2 if filled > 0.25 else 4
+    levels_of_brackets = 0 if filled > 0.5 else 2 if filled > 0.25 else 4
+    return start.depth + levels_of_brackets - (0.5 if start.kind == "relation" else 0.0)
 
 
 def _breaks(pieces: tuple[Piece, ...]) -> Iterator[tuple[int, Piece]]:

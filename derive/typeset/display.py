@@ -6,14 +6,14 @@ Overview
     with an upright d, those with respect to a datum as partial derivatives.
 Key results
     latex         LaTeX of a relation or of a system of them
-    inline        LaTeX of a relation in a line of text
+    inline        LaTeX of a relation with its fractions on the line
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from itertools import permutations
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -44,15 +44,6 @@ class _NotePrinter(LatexPrinter):
     def __init__(self, *, small: bool = False) -> None:
         super().__init__(_SETTINGS)
         self._small = small
-
-    @contextmanager
-    def _in_small(self) -> Iterator[None]:
-        """Write fractions on the line."""
-        before, self._small = self._small, True
-        try:
-            yield
-        finally:
-            self._small = before
 
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
         quantity = QUANTITIES.get(expr.name)
@@ -95,10 +86,8 @@ class _NotePrinter(LatexPrinter):
 
     def _fraction(self, above: sp.Expr, below: sp.Expr) -> str:
         """Print a fraction, on the line where it would be tiny."""
-        on_the_line = self._small
-        with self._in_small():
-            over, under = self._print(above), self._print(below)
-        if not on_the_line:
+        over, under = inline(above), inline(below)
+        if not self._small:
             return rf"\frac{{{over}}}{{{under}}}"
         over = rf"\left({over}\right)" if above.is_Add else over
         under = rf"\left({under}\right)" if below.is_Add or below.is_Mul else under
@@ -113,9 +102,7 @@ class _NotePrinter(LatexPrinter):
         return f"{expr.p} / {expr.q}" if on_the_line else str(super()._print_Rational(expr))
 
     def _print_ExpBase(self, expr: sp.Expr, exp: str | None = None) -> str:
-        with self._in_small():
-            power = self._print(expr.args[0])
-        return str(self._do_exponent(rf"\mathrm{{e}}^{{{power}}}", exp))
+        return str(self._do_exponent(rf"\mathrm{{e}}^{{{inline(expr.args[0])}}}", exp))
 
     def _print_Exp1(self, expr: sp.Expr, exp: str | None = None) -> str:
         return str(self._do_exponent(r"\mathrm{e}", exp))
@@ -133,9 +120,14 @@ class _NotePrinter(LatexPrinter):
 
     def _print_And(self, expr: sp.And) -> str:
         """Print several relations side by side, ``a < x`` and ``x < b`` as one chain."""
-        if len(expr.args) == 2 and (chain := _chain(*expr.args) or _chain(*reversed(expr.args))):
-            (low, first), middle, (second, high) = chain
-            return f"{self._print(low)} {first} {self._print(middle)} {second} {self._print(high)}"
+        bounds = all(isinstance(part, (sp.Ge, sp.Gt, sp.Le, sp.Lt)) for part in expr.args)
+        for first, second in permutations(expr.args) if bounds and len(expr.args) == 2 else ():
+            if first.gts == second.lts:
+                below, above = (
+                    "<" if isinstance(part, (sp.Gt, sp.Lt)) else r"\leq" for part in (first, second)
+                )
+                low, middle, high = map(self._print, (first.lts, first.gts, second.gts))
+                return f"{low} {below} {middle} {above} {high}"
         return r", \quad ".join(self._print(part) for part in expr.args)
 
     def _print_Subs(self, expr: sp.Subs) -> str:
@@ -164,18 +156,6 @@ def _factors(expr: sp.Expr) -> Iterator[sp.Expr]:
         yield from _factors(factor)
 
 
-_Chain = tuple[tuple[sp.Expr, str], sp.Expr, tuple[str, sp.Expr]]
-
-
-def _chain(left: sp.Basic, right: sp.Basic) -> _Chain | None:
-    """Return the parts of ``low < x < high`` from its two relations, None for other pairs."""
-    bounds = (sp.Ge, sp.Gt, sp.Le, sp.Lt)
-    if not (isinstance(left, bounds) and isinstance(right, bounds)) or left.gts != right.lts:
-        return None
-    first, second = ("<" if isinstance(part, (sp.Gt, sp.Lt)) else r"\leq" for part in (left, right))
-    return (left.lts, first), left.gts, (second, right.gts)
-
-
 def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -> str:
     r"""Return LaTeX of an expression, a relation, or a system of relations.
 
@@ -195,11 +175,11 @@ def latex(expr: sp.Basic | Sequence[sp.Basic], where: Sequence[sp.Basic] = ()) -
     return r"\left\{\begin{aligned} " + r" \\ ".join(lines) + r" \end{aligned}\right."
 
 
-def inline(relation: sp.Basic) -> str:
-    r"""Return LaTeX of a relation for a line of text, with its fractions on the line.
+def inline(expr: sp.Basic) -> str:
+    r"""Return LaTeX of an expression or a relation, with its fractions on the line.
 
     >>> from derive.symbols import symbol
     >>> inline(symbol("f_c") < sp.Rational(1, 3))
     'f_c < 1 / 3'
     """
-    return str(_NotePrinter(small=True).doprint(relation))
+    return str(_NotePrinter(small=True).doprint(expr))

@@ -11,7 +11,7 @@ Overview
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -55,7 +55,7 @@ class Piece:
 
 def parse(latex: str) -> tuple[Piece, ...]:
     """Return the pieces of a formula, in order."""
-    return _Parser(latex).pieces()
+    return _pieces(iter(_TOKEN.findall(latex)))
 
 
 def total(pieces: Iterable[Piece]) -> float:
@@ -75,11 +75,6 @@ def width(latex: str) -> float:
     True
     """
     return total(parse(latex))
-
-
-def _total_inside(part: Iterable[Piece]) -> float:
-    """Return the width of pieces inside a fraction, where other fractions are set small."""
-    return sum(piece.width * (_SCRIPT if piece.kind == "fraction" else 1.0) for piece in part)
 
 
 def fence(opening: str, inner: tuple[Piece, ...], closing: str) -> Piece:
@@ -110,104 +105,97 @@ def _tallest(pieces: Iterable[Piece]) -> int:
     return max((piece.height for piece in pieces), default=0)
 
 
-class _Parser:
-    """A cursor over the tokens of a formula; each method reads one construct."""
+def _pieces(tokens: Iterator[str], end: str = "") -> tuple[Piece, ...]:
+    """Return the pieces up to the token `end`, which is read too."""
+    result: list[Piece] = []
+    script = 0.0
+    while (token := next(tokens, "")) not in ("", end):
+        if token in "^_":
+            piece = _script(token, tokens, script)
+            script = max(script, piece.width)
+        else:
+            piece = _piece(token, tokens, result)
+            script = piece.width if token in _OVER_SCRIPTS else 0.0
+        result.append(piece)
+    return tuple(result)
 
-    def __init__(self, latex: str) -> None:
-        self._tokens: list[str] = _TOKEN.findall(latex)
-        self._next = 0
 
-    def pieces(self, end: str = "") -> tuple[Piece, ...]:
-        """Return the pieces up to the token `end`, which is read too."""
-        result: list[Piece] = []
-        script = 0.0
-        while (token := self._take()) not in ("", end):
-            if token in "^_":
-                piece = self._script(token, script)
-                script = max(script, piece.width)
-            else:
-                piece = self._piece(token, result)
-                script = piece.width if token in _OVER_SCRIPTS else 0.0
-            result.append(piece)
-        return tuple(result)
+def _argument(tokens: Iterator[str]) -> tuple[Piece, ...]:
+    while (token := next(tokens, "")).isspace():
+        pass
+    return _pieces(tokens, "}") if token == "{" else (_piece(token, tokens, []),)
 
-    def _take(self) -> str:
-        self._next += 1
-        return self._tokens[self._next - 1] if self._next <= len(self._tokens) else ""
 
-    def _argument(self) -> tuple[Piece, ...]:
-        while (token := self._take()).isspace():
-            pass
-        return self.pieces("}") if token == "{" else (self._piece(token, []),)
+def _piece(token: str, tokens: Iterator[str], before: list[Piece]) -> Piece:
+    """Return the piece that starts with a token; `before` are those to its left."""
+    if token in _FRACTIONS:
+        return _fraction(token, _argument(tokens), _argument(tokens))
+    if token == r"\left":
+        opening = next(tokens, "")
+        return fence(opening, _pieces(tokens, r"\right"), next(tokens, ""))
+    if token == r"\begin":
+        return _table(tokens)
+    if token == r"\sqrt":
+        return _root(tokens)
+    if token in _WORDS:
+        text = source(_argument(tokens))
+        return Piece(f"{token}{{{text}}}", 0.5 * len(text))
+    if token == "{":
+        return _group(_pieces(tokens, "}"))
+    if token in _RELATIONS:
+        return Piece(token, 1.3, "relation")
+    if token in _SIGNS:
+        return Piece(token, 1.25, "sign") if _is_operand(before) else Piece(token, 0.8)
+    return Piece(token, _plain(token))
 
-    def _piece(self, token: str, before: list[Piece]) -> Piece:
-        if token in _FRACTIONS:
-            return self._fraction(token)
-        if token == r"\left":
-            return self._fence()
-        if token == r"\begin":
-            return self._table()
-        if token == r"\sqrt":
-            return self._root()
-        if token in _WORDS:
-            text = source(self._argument())
-            return Piece(f"{token}{{{text}}}", 0.5 * len(text))
-        if token == "{":
-            return self._group()
-        if token in _RELATIONS:
-            return Piece(token, 1.3, "relation")
-        if token in _SIGNS:
-            return Piece(token, 1.25, "sign") if _is_operand(before) else Piece(token, 0.8)
-        return Piece(token, _plain(token))
 
-    def _script(self, token: str, beside: float) -> Piece:
-        """Return a sub- or superscript; the second one of a letter adds only its excess width."""
-        inner = self._argument()
-        body = source(inner)
-        tex = token + (body if len(body) == 1 else f"{{{body}}}")
-        return Piece(tex, max(_SCRIPT * total(inner) - beside, 0.0))
+def _script(token: str, tokens: Iterator[str], beside: float) -> Piece:
+    """Return a sub- or superscript; the second one of a letter adds only its excess width."""
+    inner = _argument(tokens)
+    body = source(inner)
+    tex = token + (body if len(body) == 1 else f"{{{body}}}")
+    return Piece(tex, max(_SCRIPT * total(inner) - beside, 0.0))
 
-    def _group(self) -> Piece:
-        """Return a group in braces, which are redundant around a single fence."""
-        inner = self.pieces("}")
-        solid = [piece for piece in inner if not piece.tex.isspace()]
-        if len(solid) == 1 and solid[0].kind == "fence":
-            return solid[0]
-        return Piece(f"{{{source(inner)}}}", total(inner), height=_tallest(inner))
 
-    def _fraction(self, token: str) -> Piece:
-        parts = self._argument(), self._argument()
-        tex = token + "".join(f"{{{source(part)}}}" for part in parts)
-        small = _SCRIPT if token == r"\tfrac" else 1.0
-        wide = small * max(_total_inside(part) for part in parts) + 0.25
-        height = 1 + max(_tallest(part) for part in parts)
-        return Piece(tex, wide, "fraction", height, parts=parts)
+def _group(inner: tuple[Piece, ...]) -> Piece:
+    """Return a group in braces, which are redundant around a single fence."""
+    solid = [piece for piece in inner if not piece.tex.isspace()]
+    if len(solid) == 1 and solid[0].kind == "fence":
+        return solid[0]
+    return Piece(f"{{{source(inner)}}}", total(inner), height=_tallest(inner))
 
-    def _root(self) -> Piece:
-        inner = self._argument()
-        if source(inner) == "[":  # the order of the root
-            order = source(self.pieces("]"))
-            inner = self._argument()
-            return Piece(rf"\sqrt[{order}]{{{source(inner)}}}", total(inner) + 0.9)
-        tex = rf"\sqrt{{{source(inner)}}}"
-        return Piece(tex, total(inner) + 0.9, "root", _tallest(inner), parts=(inner,))
 
-    def _fence(self) -> Piece:
-        opening, start, level = self._take(), self._next, 1
-        while level and (token := self._take()):
-            level += {r"\left": 1, r"\right": -1}.get(token, 0)
-        inner = parse("".join(self._tokens[start : self._next - 1]))
-        return fence(opening, inner, self._take())
+def _fraction(token: str, *parts: tuple[Piece, ...]) -> Piece:
+    tex = token + "".join(f"{{{source(part)}}}" for part in parts)
+    small = _SCRIPT if token == r"\tfrac" else 1.0
+    # fractions inside it are set small
+    widths = (
+        sum(p.width * (_SCRIPT if p.kind == "fraction" else 1) for p in part) for part in parts
+    )
+    height = 1 + max(map(_tallest, parts))
+    return Piece(tex, small * max(widths) + 0.25, "fraction", height, parts=parts)
 
-    def _table(self) -> Piece:
-        start, level = self._next - 1, 1
-        while level and (token := self._take()):
-            level += {r"\begin": 1, r"\end": -1}.get(token, 0)
-        self._argument()
-        tex = "".join(self._tokens[start : self._next])
-        body = re.sub(r"\\(?:begin|end)\{[^}]*\}(?:\{[lcr]*\})?", "", tex)
-        wide = max(width(row) for row in rows(body)) + 1.0
-        return Piece(tex, wide, "cases" if tex.startswith(r"\begin{cases}") else "atom", height=2)
+
+def _root(tokens: Iterator[str]) -> Piece:
+    inner = _argument(tokens)
+    if source(inner) == "[":  # the order of the root
+        order = source(_pieces(tokens, "]"))
+        inner = _argument(tokens)
+        return Piece(rf"\sqrt[{order}]{{{source(inner)}}}", total(inner) + 0.9)
+    tex = rf"\sqrt{{{source(inner)}}}"
+    return Piece(tex, total(inner) + 0.9, "root", _tallest(inner), parts=(inner,))
+
+
+def _table(tokens: Iterator[str]) -> Piece:
+    """Return an environment with rows, which stays whole."""
+    tex, level = r"\begin", 1
+    while level and (token := next(tokens, "")):
+        tex += token
+        level += {r"\begin": 1, r"\end": -1}.get(token, 0)
+    tex += f"{{{source(_argument(tokens))}}}"
+    body = re.sub(r"\\(?:begin|end)\{[^}]*\}(?:\{[lcr]*\})?", "", tex)
+    wide = max(map(width, rows(body))) + 1.0
+    return Piece(tex, wide, "cases" if tex.startswith(r"\begin{cases}") else "atom", height=2)
 
 
 def _is_operand(before: list[Piece]) -> bool:

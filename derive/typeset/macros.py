@@ -6,7 +6,7 @@ Key results
     WIDTH           their greatest width
     occurring       the quantities that occur in expressions, in the order of the vocabulary
     nomenclature    a tabular with the symbols of equations, their meanings and units
-    meaning, unit   of one quantity, in LaTeX
+    unit            that of a quantity, in LaTeX
     rendered        the text of a template of LaTeX
 """
 
@@ -91,16 +91,6 @@ def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
     )
 
 
-def quantities(equations: Iterable[Equation]) -> tuple[Quantity, ...]:
-    """Return the quantities that occur in equations.
-
-    >>> import derive
-    >>> [quantity.name for quantity in quantities([derive.equation("7c")])]
-    ['t', 'U_c', 'p', 'k']
-    """
-    return occurring(e for entry in equations for e in (*entry.shown, *entry.where))
-
-
 def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
     """Return the quantities that occur in expressions.
 
@@ -119,19 +109,8 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
 
 def nomenclature(equations: Iterable[Equation]) -> str:
     """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
-    names = quantities(equations)
-    return rendered("nomenclature", quantities=names, meaning=meaning, unit=unit).rstrip()
-
-
-def meaning(quantity: Quantity) -> str:
-    r"""Return the meaning in LaTeX, names of other quantities as formulas.
-
-    >>> print(meaning(QUANTITIES["f_c"]))
-    roughness growth of the bearing, $\mathrm{d}\sigma_c/\mathrm{d}u_c$
-    >>> print(meaning(QUANTITIES["c_2"]))
-    drift at order $1/m^2$
-    """
-    return in_latex(quantity.meaning)
+    names = occurring(part for each in equations for part in (*each.shown, *each.where))
+    return rendered("nomenclature", quantities=names, in_latex=in_latex, unit=unit).rstrip()
 
 
 def unit(quantity: Quantity) -> str:

@@ -67,16 +67,11 @@ def _upright(term: sp.Expr) -> sp.Expr:
     """Return a term in ``tanh(x)`` with ``-tanh(-x)`` where x begins with a minus, unevaluated."""
     factors = sp.Mul.make_args(term)
     inner = [f for f in factors if isinstance(f, sp.tanh)]
-    if len(inner) != 1 or not _starts_negative(inner[0].args[0]):
+    if len(inner) != 1 or not inner[0].args[0].as_coeff_Add()[0].is_negative:
         return term
     turned = sp.tanh(sp.expand(-inner[0].args[0]), evaluate=False)
     rest = sp.Mul(-1, *(f for f in factors if f is not inner[0]))
     return turned if rest == 1 else sp.Mul(rest, turned, evaluate=False)
-
-
-def _starts_negative(argument: sp.Expr) -> bool:
-    constant, _ = argument.as_coeff_Add()
-    return bool(constant.is_negative)
 
 
 def _negative(term: sp.Expr) -> bool:

@@ -107,8 +107,8 @@ def read(text: str) -> tuple[Fragment, ...]:
 def in_latex(text: str) -> str:
     r"""Return the text with its formulas in LaTeX.
 
-    >>> print(in_latex("terms of order 2 in 1/m, with f_c > 0"))
-    terms of order 2 in $1/m$, with $f_c > 0$
+    >>> print(in_latex("terms of order 2 in 1/m, with f_c = d sigma_c/d u_c"))
+    terms of order 2 in $1/m$, with $f_c = \mathrm{d}\sigma_c/\mathrm{d}u_c$
     """
     return "".join(f"${part.text}$" if part.kind == "formula" else part.text for part in read(text))
 

@@ -10,7 +10,8 @@ from derive import reasons
 from derive.catalogue import all_equations, equation
 from derive.equations import Equation, Status
 from derive.symbols import QUANTITIES
-from derive.typeset.macros import macro_name, meaning
+from derive.typeset.macros import macro_name
+from derive.typeset.reading import in_latex
 
 MEANING = {
     Status.DEFINITION: "taken as the model, or a name given to something",
@@ -60,7 +61,7 @@ def symbols() -> str:
     """Every quantity: its symbol, its name in SymPy, meaning and unit."""
     rows = ["| symbol | name | meaning | unit |", "| --- | --- | --- | --- |"]
     rows += [
-        f"| ${q.latex}$ | `{q.name}` | {meaning(q)} | {'' if q.unit == '1' else q.unit} |"
+        f"| ${q.latex}$ | `{q.name}` | {in_latex(q.meaning)} | {'' if q.unit == '1' else q.unit} |"
         for q in QUANTITIES.values()
     ]
     return "\n".join(rows)

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.files import replacing, replacing_in, write_atomically
+from derive import files
+from derive.files import replacing, write_all, write_atomically
 
 OLD, NEW = b"the one before", b"the new one"
 
@@ -99,34 +100,31 @@ def test_a_place_that_cannot_be_written_is_reported_by_its_own_name(tmp_path, na
 def test_a_folder_receives_its_files_and_keeps_others(tmp_path):
     (tmp_path / "report.html").write_bytes(OLD)
     (tmp_path / "own.txt").write_bytes(OLD)
-    with replacing_in(tmp_path) as draft:
-        (draft / "report.html").write_bytes(NEW)
-        (draft / "figures").mkdir()
-        (draft / "figures" / "2a.svg").write_bytes(NEW)
-        assert (tmp_path / "report.html").read_bytes() == OLD
-    assert contents(tmp_path) == {"report.html": NEW, "own.txt": OLD, "figures/2a.svg": NEW}
+    write_all(tmp_path, {"report.html": NEW, "2a.svg": "<svg/>"})
+    assert contents(tmp_path) == {"report.html": NEW, "own.txt": OLD, "2a.svg": b"<svg/>"}
 
 
 @pytest.mark.parametrize("fault", [RuntimeError, KeyboardInterrupt])
-def test_what_stops_the_writers_leaves_a_folder_as_it_was(tmp_path, fault):
+def test_what_stops_the_writers_leaves_a_folder_as_it_was(tmp_path, monkeypatch, fault):
     new, old = tmp_path / "deep" / "new", tmp_path / "old"
     old.mkdir()
     (old / "report.html").write_bytes(OLD)
 
-    def write_half(folder):
-        with replacing_in(folder) as draft:
-            (draft / "report.html").write_bytes(NEW)
+    def stopped(path, content):
+        if path.name == "2a.svg":
             raise fault
+        write_atomically(path, content)
 
+    monkeypatch.setattr(files, "write_atomically", stopped)
     for folder in (new, old):
         with pytest.raises(fault):
-            write_half(folder)
+            write_all(folder, {"report.html": NEW, "2a.svg": NEW})
     assert not new.exists()
     assert contents(tmp_path) == {"old/report.html": OLD}
 
 
 def test_a_file_in_place_of_a_folder_is_reported(tmp_path):
     (tmp_path / "report").write_bytes(OLD)
-    with pytest.raises(OSError, match="exists") as caught, replacing_in(tmp_path / "report"):
-        pytest.fail("nothing can be written there")
+    with pytest.raises(OSError, match="exists") as caught:
+        write_all(tmp_path / "report", {"report.html": NEW})
     assert caught.value.filename == str(tmp_path / "report")

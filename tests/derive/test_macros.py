@@ -104,6 +104,13 @@ def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     assert _WIDE.findall(log) == []
 
 
+def test_a_factor_after_a_broken_fraction_is_not_in_its_denominator():
+    """[a]/[b] c may be read as [a]/([b] c)."""
+    fraction = r"\frac{K_c V T + x}{6 H_c + y + z + w}"
+    assert r"\Big/" in broken(f"a = {fraction}", 7.0)
+    assert r"\bigr]\bigr] p" in broken(f"a = {fraction} p", 7.0)
+
+
 @pytest.mark.parametrize("length", ["246", "3 cm", "wide", "-246pt", "1e9pt"])
 def test_what_is_no_width_is_refused(length):
     with pytest.raises(ValueError, match="such as 246pt"):

@@ -6,7 +6,8 @@ import pytest
 
 import derive
 from derive.symbols import QUANTITIES
-from derive.typeset.macros import meaning, nomenclature, quantities
+from derive.typeset.macros import nomenclature, occurring
+from derive.typeset.reading import in_latex
 
 
 @pytest.mark.parametrize(
@@ -18,13 +19,13 @@ from derive.typeset.macros import meaning, nomenclature, quantities
     ],
 )
 def test_the_symbols_of_the_equations_and_no_others(identifiers, names):
-    found = quantities(derive.equation(identifier) for identifier in identifiers)
+    found = occurring(derive.equation(identifier).relation for identifier in identifiers)
     assert {quantity.name for quantity in found} == set(names.split())
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES.values(), ids=lambda quantity: quantity.name)
 def test_no_name_is_left_outside_a_formula(quantity):
-    text = re.sub(r"\$.*?\$", "", meaning(quantity))
+    text = re.sub(r"\$.*?\$", "", in_latex(quantity.meaning))
     assert not re.search(r"[_^\\]", text)
 
 

@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 
 import wear
 from derive.faults import UsageError as NotUnderstood
+from derive.law_grammar import normal
 from derive.laws import r
-from derive.own_law import normal
 from tests.derive.reading_back import CLASSES, read_back
 from tests.programs import python
 from wear import own_laws
@@ -159,6 +159,12 @@ def test_the_formula_may_stand_in_a_file_beside_the_scene(tmp_path):
         ("r**(1/3)", "is no power"),
         ("r**999999999", "is beyond 20"),
         ("9**9**9**9", "is no power"),
+        ("r**True", "is no power"),
+        ("r**(True/2)", "is no power"),
+        ("r**1e999", "is no power"),
+        ("r**" + "9" * 400, "is beyond 20"),
+        ("r\0", "is no formula"),
+        ("r\ud800", "is no formula"),
         ("1e999*r", "is too large"),
         ("(" * 400 + "r" + ")" * 400, "characters"),
         ("-" * 499 + "r", "is no formula"),
@@ -185,6 +191,9 @@ def test_what_is_no_law_is_a_fault(raw):
         ("1/(1 + r^2)", "concave below one value"),
         ("1/(1 + exp(r)/3) + 1/(1 + 148*exp(20*r))/100", "3 times"),  # two within a quarter
         ("1/r", "kink"),
+        ("(1 - tanh(1000000*r))/2", "concave below one value"),  # between two points of the grid
+        ("exp(-exp(exp(r)))", "too large to be computed"),
+        ("exp(-exp(r^20))", "too large to be computed"),
         ("exp(-r - sqrt(r^2)/2)", "kink"),
         ("exp(-r - sqrt(r^4 + r^2)/(2 + 2*r^2))", "kink"),
         ("(3 - (r-2)/sqrt((r-2)^2))*exp(-r)", "kink"),
