@@ -92,6 +92,11 @@ class Estimate:
         """Return the size (p,) of every parameter, see `Model.scale`."""
         return self.model.scale(self.theta)
 
+    @property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """Return the centre and the half widths (p,) of the range of the parameters."""
+        return self.theta, PARAMETER_RANGE * self.scale
+
     @cached_property
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Return the `directions` for residuals with a scatter of 1."""
