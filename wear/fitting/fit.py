@@ -19,7 +19,7 @@ import numpy as np
 
 from wear.faults import Faults
 from wear.fitting import identifiability, laws
-from wear.fitting.estimate import PARAMETER_RANGE, Estimate
+from wear.fitting.estimate import Estimate
 from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
@@ -115,15 +115,14 @@ class Fit(Estimate):
         """
         from wear.cycles import cycles_to_depth
 
-        specimens, count = self.model.specimens, len(self.model.specimens)
-        numbers = cycles_to_depth(self.scenes, np.array([wear_mm])).cycles[:, 0]
+        specimens = self.model.specimens
+        numbers = cycles_to_depth(self.scenes, wear_mm).cycles[:, 0]
         near = np.where(np.isfinite(numbers), numbers, 1.0)
-        around = [np.array([n, n + max(1.0, np.rint(n / 50.0))]) for n in near]
-        level, slope = self.model.log_wear(self.theta[None], around)
-        level, slope = level.reshape(count, 2), slope.reshape(count, 2, -1)[:, 0]
-        steepness = np.diff(level)[:, 0] / np.diff(np.log(around))[:, 0]
+        around = np.stack([near, near + np.maximum(1.0, np.rint(near / 50.0))], axis=1)
+        level, slope = self.model.log_wear(self.theta[None], [*around])
+        rise = np.diff(level.reshape(around.shape)) / np.diff(np.log(around))
         with np.errstate(all="ignore"):
-            width = self.quantile * self.spread(slope) / steepness
+            width = self.quantile * self.spread(slope[0, ::2]) / rise[:, 0]
         rows = zip(specimens, numbers.tolist(), width.tolist(), strict=True)
         return [Forecast(s.name, n, wear_mm, _band(float(np.log(n)), half)) for s, n, half in rows]
 
@@ -140,19 +139,14 @@ class Fit(Estimate):
         level, slope = self.model.log_wear(self.theta[None], slots)
         residuals = self.model.residuals
         weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
-        shape = (len(specimens), len(tried) + 1, -1)
-        target = slope.reshape(shape)[:, -1]
-        read = (slope * np.reshape(weight, (-1, 1))).reshape(shape)[:, :-1]
-        read = read.reshape(-1, slope.shape[-1])
-        covariance = self.unscaled_covariance
-        shared = target @ covariance @ read.T
-        own = 1.0 + np.einsum("ij,jk,ik->i", read, covariance, read)
-        before = float(np.einsum("ij,jk,ik->", target, covariance, target))
-        gain = np.sum(shared**2, axis=0) / own
-        best = int(np.argmax(gain))
-        factor = float(np.sqrt(max(0.0, 1.0 - gain[best] / before)))
-        name = specimens[best // len(tried)].name
-        return NextReading(name, float(tried[best % len(tried)]), factor)
+        factors = self.factors(slope[0]).reshape(len(specimens), len(tried) + 1, -1)
+        target, read = factors[:, -1], weight.reshape(len(specimens), -1, 1) * factors
+        # A reading removes the part of the variances that it shares with the targets.
+        shared = np.einsum("tp,snp->snt", target, read[:, :-1])
+        gain = np.sum(shared**2, axis=-1) / (1.0 + np.sum(read[:, :-1] ** 2, axis=-1))
+        which, best = np.unravel_index(np.argmax(gain), gain.shape)
+        left = max(0.0, 1.0 - gain[which, best] / np.sum(target**2))
+        return NextReading(specimens[which].name, float(tried[best]), float(np.sqrt(left)))
 
     def alternatives(self) -> list[laws.Alternative]:
         """Return the fits of simpler laws to the same readings."""
@@ -166,9 +160,8 @@ class Fit(Estimate):
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
             return float(np.nan)
-        box = self.theta, PARAMETER_RANGE * self.scale
-        theta = descend(early, self.theta[None], box)[0][0]
-        level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
+        theta, _ = descend(early, self.theta[None], self.box)
+        level, _ = model.log_wear(theta, [s.cycles[-1:] for s in model.specimens])
         return laws.forecast_rms(model.specimens, level[0])
 
     def as_json(self, cycles: Sequence[float] = (), wear_mm: float | None = None) -> dict[str, Any]:
