@@ -29,8 +29,9 @@ from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import Edge
 from wear.loss_of_contact.tangent import stage_tangents
 from wear.numerics.gauss import BoolArray, FloatArray
+from wear.numerics.rows import stacked, take
 from wear.orbit.segments import orbit
-from wear.orbit.tangent import Tangents, tangents
+from wear.orbit.tangent import Known, Tangents, tangents
 from wear.parameters import (
     ParametrisedEquation,
     no_such_number,
@@ -147,7 +148,8 @@ def _of_one_variant(
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     result = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
-    begin = *np.zeros((2, number)), *np.zeros((2, number, len(keys)))
+    wear, wear_error = np.zeros((2, number))
+    begin = Known(*np.zeros((2, number, len(keys))))
     grazes, done = np.full(number, False), 0
     while True:
         acting = [span(scene.load, done) for scene in scenes]
@@ -161,16 +163,17 @@ def _of_one_variant(
             edges = edges_of_contact([e.model for e in single], [e.loads[0] for e in single])
             if done == 0:
                 grazes[:] = [_grazes(e, edge) for e, edge in zip(single, edges, strict=True)]
-            stage = _with_loss_of_contact(single, edges, requested[0], rtol, begin)
+            starts = np.stack([wear, wear_error], axis=1)
+            stage = _with_loss_of_contact(single, edges, requested[0], rtol, starts, begin)
         else:
             equation = parametrised(scenes, acting, keys)
-            states = orbit(equation, requested[:, -1], rtol, begin[0], begin[1], keep=True)
-            stage = tangents(equation, states, requested, rtol, begin[2], begin[3])
+            states = orbit(equation, requested[:, -1], rtol, wear, wear_error, keep=True)
+            stage = tangents(equation, states, requested, rtol, begin)
         for array, values in zip(result, stage, strict=True):
             array[..., within] = values[..., :-1]
-        u, error, *derivative = (values[..., -1] for values in stage[:4])
-        begin = u, error * u, *derivative
-        if end >= last or not np.isfinite(begin[1]).all():
+        wear, relative, *derivatives, _ = (values[..., -1] for values in stage)
+        wear_error, begin = relative * wear, Known(*derivatives)
+        if end >= last or not np.isfinite(wear_error).all():
             break
         done = acting[0].until
     unknown = np.isnan(result.derivative_error)
@@ -183,20 +186,21 @@ def _with_loss_of_contact(
     edges: Sequence[Edge],
     cycles: FloatArray,
     rtol: float,
-    begin: Sequence[FloatArray],
+    starts: FloatArray,
+    begin: Known,
 ) -> Tangents:
-    """Return the derivatives of the wear after `cycles` (n,) of a stage, scene by scene; at its
-    `begin` are known the wear (s,) with its error, and the derivatives (s, k) with theirs."""
+    """Return the derivatives of the wear after `cycles` (n,) of a stage, scene by scene; it starts
+    at the wear with the error `starts` (s, 2), and the derivatives `begin` (s, k)."""
     requests = [
-        CountRequest(equation.model, equation.loads[0], edge, float(cycles[-1]), float(u), float(e))
-        for equation, edge, u, e in zip(equations, edges, *begin[:2], strict=True)
+        CountRequest(equation.model, equation.loads[0], edge, float(cycles[-1]), *start)
+        for equation, edge, start in zip(equations, edges, starts.tolist(), strict=True)
     ]
     scenes = zip(count_scenes(requests, rtol), equations, edges, strict=True)
     rows = [
-        stage_tangents(*scene, cycles[None], rtol, begin[2][[i]], begin[3][[i]])
+        stage_tangents(*scene, cycles[None], rtol, take(begin, slice(i, i + 1)))
         for i, scene in enumerate(scenes)
     ]
-    return Tangents(*map(np.concatenate, zip(*rows, strict=True)))
+    return stacked(rows)
 
 
 def _grazes(equation: WearEquation, edge: Edge) -> bool:
