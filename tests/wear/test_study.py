@@ -444,6 +444,14 @@ def test_the_indices_of_a_product_are_those_of_its_logarithms():
     assert indices(found).axes
 
 
+def test_a_seed_makes_indices_and_their_confidence_reproducible():
+    from wear.studies.indices import sobol_indices
+
+    vary = [f"{HARDNESS}=uniform(100,300)", f"{GROWTH}=uniform(0.1,0.3)"]
+    one, other = (sobol_indices("section4", vary, [9], samples=16, seed=3) for _ in range(2))
+    assert one.identical(other)
+
+
 def test_indices_of_scenes_without_an_answer_are_refused():
     from wear.studies.indices import sobol_indices
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -33,6 +34,12 @@ class Levels:
     def example(self) -> float:
         """Return a value that the key takes."""
         return self.values[0]
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Return the values that the key does not exceed with these probabilities (< 1), if its
+        levels, in the order given, are equally likely."""
+        places = (probability * len(self.values)).astype(int)
+        return np.asarray(np.array(self.values)[places], dtype=float)
 
 
 @dataclass(frozen=True)
@@ -58,15 +65,7 @@ class Distribution:
         """Return the distribution of `scipy.stats`."""
         from scipy import stats
 
-        first, second = self.parameters
-        match self.law:
-            case "uniform":
-                return stats.uniform(first, second - first)
-            case "loguniform":
-                return stats.loguniform(first, second)
-            case "normal":
-                return stats.norm(first, second)
-        return stats.lognorm(math.log(second), scale=first)
+        return DISTRIBUTIONS[self.law].frozen(stats, *self.parameters)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
         """Return the values that the key does not exceed with these probabilities."""
@@ -75,14 +74,36 @@ class Distribution:
 
 Vary = Levels | Distribution
 
-# The condition on the two parameters of a distribution, and its message.
+
+class Law(NamedTuple):
+    """A kind of distribution: the condition on its two parameters, its message, and the function
+    that makes the distribution of `scipy.stats` from that module and the parameters."""
+
+    meets: Callable[[float, float], bool]
+    rule: str
+    frozen: Callable[..., Any]
+
+
 DISTRIBUTIONS = {
-    "uniform": (lambda low, high: low < high, "uniform(low,high) needs low < high"),
-    "loguniform": (lambda low, high: 0 < low < high, "loguniform(low,high) needs 0 < low < high"),
-    "normal": (lambda _, deviation: deviation > 0, "normal(mean,sd) needs sd > 0"),
-    "lognormal": (
+    "uniform": Law(
+        lambda low, high: low < high,
+        "uniform(low,high) needs low < high",
+        lambda stats, low, high: stats.uniform(low, high - low),
+    ),
+    "loguniform": Law(
+        lambda low, high: 0 < low < high,
+        "loguniform(low,high) needs 0 < low < high",
+        lambda stats, low, high: stats.loguniform(low, high),
+    ),
+    "normal": Law(
+        lambda _, deviation: deviation > 0,
+        "normal(mean,sd) needs sd > 0",
+        lambda stats, mean, deviation: stats.norm(mean, deviation),
+    ),
+    "lognormal": Law(
         lambda median, factor: median > 0 and factor > 1,
         "lognormal(median,factor) needs median > 0 and factor > 1",
+        lambda stats, median, factor: stats.lognorm(math.log(factor), scale=median),
     ),
 }
 
@@ -109,15 +130,17 @@ def parse(text: str) -> Vary:
         return _distribution(key, call[1], _numbers(text, call[2].split(",")))
     if ":" in value:
         return _range(key, text, value.split(":"))
-    return Levels(key, _distinct(text, _numbers(text, value.split(","))))
+    levels = _numbers(text, value.split(","))
+    if len(set(levels)) < len(levels):
+        raise UsageError(f"{text}: a value is given twice")
+    return Levels(key, levels)
 
 
 def _distribution(key: str, law: str, parameters: tuple[float, ...]) -> Distribution:
     if law not in DISTRIBUTIONS:
         raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(DISTRIBUTIONS)}")
-    meets, rule = DISTRIBUTIONS[law]
-    if len(parameters) != 2 or not meets(*parameters):
-        raise UsageError(f"{key}: {rule}")
+    if len(parameters) != 2 or not DISTRIBUTIONS[law].meets(*parameters):
+        raise UsageError(f"{key}: {DISTRIBUTIONS[law].rule}")
     return Distribution(key, law, (parameters[0], parameters[1]))
 
 
@@ -143,9 +166,3 @@ def _numbers(text: str, words: list[str]) -> tuple[float, ...]:
     if not all(map(math.isfinite, numbers)):
         raise UsageError(f"{text}: every value must be a finite number")
     return numbers
-
-
-def _distinct(text: str, values: tuple[float, ...]) -> tuple[float, ...]:
-    if len(set(values)) < len(values):
-        raise UsageError(f"{text}: a value is given twice")
-    return values
