@@ -39,7 +39,7 @@ from wear.parameters import (
     parametrised,
 )
 from wear.progress import Pace
-from wear.request import checked_request, checked_scenes, obstacle
+from wear.request import checked_request, checked_scenes, obstacle, whole_cycles
 from wear.scene import Scene, as_scene
 from wear.states import notices_of_wear
 from wear.words import are_texts
@@ -65,7 +65,7 @@ class Gradients(NamedTuple):
 def gradients(
     scenes: Sequence[Scene],
     keys: Sequence[str],
-    cycles: FloatArray,
+    cycles: FloatArray | Iterable[float] | float,
     rtol: float = 1e-10,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Gradients:
@@ -85,13 +85,11 @@ def gradients(
     >>> f"{found.derivative[0, 0, 0]:.4f}"
     '1698.1082'
     """
-    given = np.asarray(cycles)
     faults = Faults()
-    if given.dtype.kind not in "iuf" or given.ndim != 1 or not given.size:
-        faults.append(f"cycles: {cycles!r} is no list of numbers")
+    cycles = np.array(whole_cycles(cycles, faults), dtype=float)
     if not are_texts(keys) or not keys:
         faults.append("keys: give a list of keys, such as ['bearing.hardness_MPa']")
-    scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
+    scenes = checked_scenes(scenes, rtol, faults)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     result = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from wear.faults import Faults, UsageError
-from wear.fitting.model import MISSING_RESIDUAL, FitModel
+from wear.fitting.model import FitModel
 from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
@@ -89,7 +89,7 @@ def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     if growths.any():
         starts = np.array([centre, np.where(growths, _starting_growth(model), centre)])
     residuals, slope = model(starts)
-    finite = np.all(np.abs(residuals) < MISSING_RESIDUAL, axis=1)
+    finite = np.all(np.abs(residuals) < model.residuals.missing, axis=1)
     if not finite.any():
         raise UsageError("no start leads to a scene with wear: correct the scene")
     idle = np.all(slope == 0.0, axis=(0, 1))

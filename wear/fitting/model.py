@@ -21,7 +21,6 @@ from wear.sensitivities import gradients
 from wear.words import are_texts
 
 RTOL = 1e-7  # of the wear: far below any scatter
-MISSING_RESIDUAL = 1e3  # at a point without a scene or without wear
 
 
 @dataclass(frozen=True)
@@ -94,7 +93,9 @@ class FitModel:
         values = self.residuals(level)
         slope = self.residuals.slope(level)[..., None] * slope
         valid = np.isfinite(values) & np.all(np.isfinite(slope), axis=-1)
-        return np.where(valid, values, MISSING_RESIDUAL), np.where(valid[..., None], slope, 0.0)
+        return np.where(valid, values, self.residuals.missing), np.where(
+            valid[..., None], slope, 0.0
+        )
 
     def cost(self, points: FloatArray) -> FloatArray:
         """Return the sums of the squared residuals (m,)."""

@@ -78,7 +78,8 @@ class _Side:
 
     def __init__(self, fit: Estimate, number: int, sign: float) -> None:
         self.fit, self.number, self.sign = fit, number, sign
-        self.below, self.above = _Point(fit.theta, fit.chi_square, 0.0, False), None
+        self.below = _Point(fit.theta, fit.chi_square, 0.0, False)
+        self.above: _Point | None = None
         self.points = [self.below]
         covariance = fit.covariance[number]
         self.secant = sign * covariance / np.sqrt(covariance[number])

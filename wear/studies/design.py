@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from wear.faults import Faults
 from wear.numerics.gauss import FloatArray
+from wear.request import is_number
 from wear.studies.vary import Distribution, Levels, Vary
 
 Chunk = tuple[slice, ...]
@@ -145,7 +146,7 @@ def _faults(design: Design) -> Iterator[str]:
             return
     for name in ("samples", "seed"):
         given = getattr(design, name)
-        if not isinstance(given, int | np.integer) or given < 0:
+        if not is_number(given) or not isinstance(given, int | np.integer) or given < 0:
             yield f"{name}: {given!r} is not a whole number >= 0"
             return
     if design.kind != "grid" and design.samples < 1:

@@ -139,6 +139,8 @@ def ten_percent_life(results: xarray.Dataset) -> float:
 def _require(results: xarray.Dataset, name: str) -> None:
     if name not in getattr(results, "data_vars", ()):
         raise UsageError(f"results: {name} is missing; give the results of a study that has it")
+    if not np.any(results["status"] == 0):
+        raise UsageError("results: no row has an answer; their status and reason say why")
 
 
 def _band(axes: Axes, results: xarray.Dataset) -> None:

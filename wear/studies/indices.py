@@ -70,6 +70,8 @@ def sobol_indices(
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is not a power of two")
     keys = [each.key for each in request.design.vary]
+    if len(keys) < 2:
+        raise UsageError(f"vary: {keys[0]} alone has the whole variance; name two keys or more")
     drawn: list[tuple[dict[str, FloatArray], FloatArray]] = []
 
     def wear(points: FloatArray) -> FloatArray:

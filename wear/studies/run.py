@@ -140,7 +140,7 @@ def prepare(
     for entry in [vary] if isinstance(vary, str) or not isinstance(vary, Sequence) else vary:
         try:
             parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
-            if "." not in parsed[-1].key:
+            if "." not in str(parsed[-1].key):
                 raise UsageError(no_such_number(parsed[-1].key, parameters_of(base)))
             base.with_({parsed[-1].key: parsed[-1].example})
         except ValueError as fault:

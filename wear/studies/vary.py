@@ -18,6 +18,7 @@ import numpy as np
 
 from wear.faults import UsageError
 from wear.numerics.gauss import FloatArray
+from wear.request import is_number
 
 MOST_LEVELS = 10**7  # of one key
 _CALL = re.compile(r"(\w+)\(([^()]*)\)")
@@ -29,6 +30,12 @@ class Levels:
 
     key: str
     values: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        if not self.values or not all(is_number(x) and math.isfinite(x) for x in self.values):
+            raise UsageError(f"{self.key}: every value must be a finite number")
+        if len(set(self.values)) < len(self.values):
+            raise UsageError(f"{self.key}: a value is given twice")
 
     @property
     def example(self) -> float:
@@ -53,7 +60,18 @@ class Distribution:
 
     key: str
     law: str
-    parameters: tuple[float, float]
+    parameters: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        numbers = self.parameters
+        if not all(is_number(x) and math.isfinite(x) for x in numbers):
+            raise UsageError(f"{self.key}: every value must be a finite number")
+        if self.law not in DISTRIBUTIONS:
+            known = ", ".join(DISTRIBUTIONS)
+            raise UsageError(f"{self.key}: {self.law} is unknown; choose one of {known}")
+        law = DISTRIBUTIONS[self.law]
+        if len(numbers) != 2 or not law.meets(*numbers):
+            raise UsageError(f"{self.key}: {law.rule}")
 
     @property
     def example(self) -> float:
@@ -127,28 +145,19 @@ def parse(text: str) -> Vary:
     if not equals or not key:
         raise UsageError(f"{text!r}: write KEY=VALUES, as in bearing.hardness_MPa=100:300:21")
     if call := _CALL.fullmatch(value):
-        return _distribution(key, call[1], _numbers(text, call[2].split(",")))
+        return Distribution(key, call[1], tuple(map(_number, call[2].split(","))))
     if ":" in value:
         return _range(key, text, value.split(":"))
-    levels = _numbers(text, value.split(","))
-    if len(set(levels)) < len(levels):
-        raise UsageError(f"{text}: a value is given twice")
-    return Levels(key, levels)
-
-
-def _distribution(key: str, law: str, parameters: tuple[float, ...]) -> Distribution:
-    if law not in DISTRIBUTIONS:
-        raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(DISTRIBUTIONS)}")
-    if len(parameters) != 2 or not DISTRIBUTIONS[law].meets(*parameters):
-        raise UsageError(f"{key}: {DISTRIBUTIONS[law].rule}")
-    return Distribution(key, law, (parameters[0], parameters[1]))
+    return Levels(key, tuple(map(_number, value.split(","))))
 
 
 def _range(key: str, text: str, parts: list[str]) -> Levels:
     spacing = parts[3].strip() if len(parts) == 4 else "linear"
     if not 3 <= len(parts) <= 4 or spacing not in ("linear", "log"):
         raise UsageError(f"{text}: write low:high:count or low:high:count:log")
-    low, high, count = _numbers(text, parts[:3])
+    low, high, count = map(_number, parts[:3])
+    if not all(map(math.isfinite, (low, high, count))):
+        raise UsageError(f"{text}: every value must be a finite number")
     if not (count.is_integer() and 2 <= count <= MOST_LEVELS):
         raise UsageError(f"{text}: the count must be a whole number from 2 to {MOST_LEVELS:.0e}")
     if not low < high or (spacing == "log" and not low > 0.0):
@@ -158,11 +167,8 @@ def _range(key: str, text: str, parts: list[str]) -> Levels:
     return Levels(key, tuple(float(f"{value:.15g}") for value in spaced(low, high, int(count))))
 
 
-def _numbers(text: str, words: list[str]) -> tuple[float, ...]:
+def _number(word: str) -> float:
     try:
-        numbers = tuple(float(word) for word in words)
+        return float(word)
     except ValueError:
-        numbers = (math.nan,)
-    if not all(map(math.isfinite, numbers)):
-        raise UsageError(f"{text}: every value must be a finite number")
-    return numbers
+        return math.nan
