@@ -33,7 +33,6 @@ from wear.numerics.rows import stacked, take
 from wear.orbit.segments import orbit
 from wear.orbit.tangent import Known, Tangents, tangents
 from wear.parameters import (
-    ParametrisedEquation,
     no_such_number,
     parameters_of,
     parametrised,
@@ -146,27 +145,33 @@ def _of_one_variant(
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     result = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
-    wear, wear_error = np.zeros((2, number))
-    begin = Known(*np.zeros((2, number, len(keys))))
+    (wear, wear_error), begin = np.zeros((2, number)), Known(*np.zeros((2, number, len(keys))))
     grazes, done = np.full(number, False), 0
     while True:
         acting = [span(scene.load, done) for scene in scenes]
         end = min(float(acting[0].until), last)
         say(f"cycle {done} of {last:.10g}")
         within = (cycles >= done) & (cycles <= end)
-        requested = np.tile(np.append(cycles[within], end) - done, (number, 1))
+        requested = np.append(cycles[within], end) - done
         if scenes[0].contact.ends_at_3_sigma:
             single = [parametrised([s], [load], keys)
                       for s, load in zip(scenes, acting, strict=True)]  # fmt: skip
             edges = edges_of_contact([e.model for e in single], [e.loads[0] for e in single])
             if done == 0:
                 grazes[:] = [_grazes(e, edge) for e, edge in zip(single, edges, strict=True)]
-            starts = np.stack([wear, wear_error], axis=1)
-            stage = _with_loss_of_contact(single, edges, requested[0], rtol, starts, begin)
+            starts = zip(single, edges, wear.tolist(), wear_error.tolist(), strict=True)
+            orbits = count_scenes(
+                [CountRequest(e.model, e.loads[0], edge, requested[-1], u, error)
+                 for e, edge, u, error in starts], rtol
+            )  # fmt: skip
+            stage = stacked(
+                [stage_tangents(*each, requested[None], rtol, take(begin, slice(i, i + 1)))
+                 for i, each in enumerate(zip(orbits, single, edges, strict=True))]
+            )  # fmt: skip
         else:
-            equation = parametrised(scenes, acting, keys)
-            states = orbit(equation, requested[:, -1], rtol, wear, wear_error, keep=True)
-            stage = tangents(equation, states, requested, rtol, begin)
+            equation, ends = parametrised(scenes, acting, keys), np.full(number, requested[-1])
+            states = orbit(equation, ends, rtol, wear, wear_error, keep=True)
+            stage = tangents(equation, states, np.tile(requested, (number, 1)), rtol, begin)
         for array, values in zip(result, stage, strict=True):
             array[..., within] = values[..., :-1]
         wear, relative, *derivatives, _ = (values[..., -1] for values in stage)
@@ -177,28 +182,6 @@ def _of_one_variant(
     unknown = np.isnan(result.derivative_error)
     error = np.where(unknown, np.inf, result.derivative_error)
     return result._replace(derivative_error=error), grazes
-
-
-def _with_loss_of_contact(
-    equations: Sequence[ParametrisedEquation],
-    edges: Sequence[Edge],
-    cycles: FloatArray,
-    rtol: float,
-    starts: FloatArray,
-    begin: Known,
-) -> Tangents:
-    """Return the derivatives of the wear after `cycles` (n,) of a stage, scene by scene; it starts
-    at the wear with the error `starts` (s, 2), and the derivatives `begin` (s, k)."""
-    requests = [
-        CountRequest(equation.model, equation.loads[0], edge, float(cycles[-1]), *start)
-        for equation, edge, start in zip(equations, edges, starts.tolist(), strict=True)
-    ]
-    scenes = zip(count_scenes(requests, rtol), equations, edges, strict=True)
-    rows = [
-        stage_tangents(*scene, cycles[None], rtol, take(begin, slice(i, i + 1)))
-        for i, scene in enumerate(scenes)
-    ]
-    return stacked(rows)
 
 
 def _grazes(equation: WearEquation, edge: Edge) -> bool:
