@@ -122,9 +122,12 @@ def _divided(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
 
 
 def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
-    """Raise a `UsageError` that names every key that some scene does not have."""
+    """Raise a `UsageError` that names every key that some scene does not have, or that is named
+    twice."""
     known, faults = [parameters_of(scene) for scene in scenes], Faults()
-    for key in keys:
+    for key in dict.fromkeys(keys):
+        if list(keys).count(key) > 1:
+            faults.append(f"keys: {key} is named twice")
         without = next((numbers for numbers in known if key not in numbers), None)
         if without is not None:
             faults.append(no_such_number(key, without))

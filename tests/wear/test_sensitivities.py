@@ -347,6 +347,12 @@ def test_only_whole_numbers_of_cycles_have_gradients(cycles: Any) -> None:
         gradients([load_scene("section4")], ["bearing.wear_coefficient"], cycles)
 
 
+def test_a_key_that_is_named_twice_is_refused() -> None:
+    """And not given a derivative of zero at its first place."""
+    with pytest.raises(UsageError, match="hardness_MPa is named twice"):
+        gradients([load_scene("section4")], 2 * ["bearing.hardness_MPa"], 1)
+
+
 def test_an_error_of_the_density_at_the_start_of_a_panel_is_in_the_estimate() -> None:
     """There the residual of Abel's equation is small, but its derivative is not."""
     changes = {
