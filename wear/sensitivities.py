@@ -29,16 +29,16 @@ from wear.loss_of_contact.period_map import margin_roundoff
 from wear.loss_of_contact.switching import Edge
 from wear.loss_of_contact.tangent import stage_tangents
 from wear.numerics.gauss import BoolArray, FloatArray
+from wear.numerics.rows import stacked, take
 from wear.orbit.segments import orbit
-from wear.orbit.tangent import Tangents, tangents
+from wear.orbit.tangent import Known, Tangents, tangents
 from wear.parameters import (
-    ParametrisedEquation,
     no_such_number,
     parameters_of,
     parametrised,
 )
 from wear.progress import Pace
-from wear.request import checked_request, checked_scenes, obstacle
+from wear.request import checked_request, checked_scenes, obstacle, whole_cycles
 from wear.scene import Scene, as_scene
 from wear.states import notices_of_wear
 from wear.words import are_texts
@@ -64,7 +64,7 @@ class Gradients(NamedTuple):
 def gradients(
     scenes: Sequence[Scene],
     keys: Sequence[str],
-    cycles: FloatArray,
+    cycles: FloatArray | Iterable[float] | float,
     rtol: float = 1e-10,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Gradients:
@@ -84,13 +84,11 @@ def gradients(
     >>> f"{found.derivative[0, 0, 0]:.4f}"
     '1698.1082'
     """
-    given = np.asarray(cycles)
     faults = Faults()
-    if given.dtype.kind not in "iuf" or given.ndim != 1 or not given.size:
-        faults.append(f"cycles: {cycles!r} is no list of numbers")
+    cycles = np.array(whole_cycles(cycles, faults), dtype=float)
     if not are_texts(keys) or not keys:
         faults.append("keys: give a list of keys, such as ['bearing.hardness_MPa']")
-    scenes, cycles = checked_scenes(scenes, rtol, faults), given.astype(float)
+    scenes = checked_scenes(scenes, rtol, faults)
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     result = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))
@@ -124,9 +122,12 @@ def _divided(scenes: Sequence[Scene]) -> tuple[Sequence[Scene], float]:
 
 
 def _check(scenes: Sequence[Scene], keys: Sequence[str]) -> None:
-    """Raise a `UsageError` that names every key that some scene does not have."""
+    """Raise a `UsageError` that names every key that some scene does not have, or that is named
+    twice."""
     known, faults = [parameters_of(scene) for scene in scenes], Faults()
-    for key in keys:
+    for key in dict.fromkeys(keys):
+        if list(keys).count(key) > 1:
+            faults.append(f"keys: {key} is named twice")
         without = next((numbers for numbers in known if key not in numbers), None)
         if without is not None:
             faults.append(no_such_number(key, without))
@@ -147,56 +148,43 @@ def _of_one_variant(
     number, last = len(scenes), float(np.max(cycles, initial=0.0))
     size, of_all = (number, len(cycles)), (number, len(keys), len(cycles))
     result = Tangents(*(np.full(shape, np.nan) for shape in (size, size, of_all, of_all, size)))
-    begin = *np.zeros((2, number)), *np.zeros((2, number, len(keys)))
+    (wear, wear_error), begin = np.zeros((2, number)), Known(*np.zeros((2, number, len(keys))))
     grazes, done = np.full(number, False), 0
     while True:
         acting = [span(scene.load, done) for scene in scenes]
         end = min(float(acting[0].until), last)
         say(f"cycle {done} of {last:.10g}")
         within = (cycles >= done) & (cycles <= end)
-        requested = np.tile(np.append(cycles[within], end) - done, (number, 1))
+        requested = np.append(cycles[within], end) - done
         if scenes[0].contact.ends_at_3_sigma:
             single = [parametrised([s], [load], keys)
                       for s, load in zip(scenes, acting, strict=True)]  # fmt: skip
             edges = edges_of_contact([e.model for e in single], [e.loads[0] for e in single])
             if done == 0:
                 grazes[:] = [_grazes(e, edge) for e, edge in zip(single, edges, strict=True)]
-            stage = _with_loss_of_contact(single, edges, requested[0], rtol, begin)
+            starts = zip(single, edges, wear.tolist(), wear_error.tolist(), strict=True)
+            orbits = count_scenes(
+                [CountRequest(e.model, e.loads[0], edge, requested[-1], u, error)
+                 for e, edge, u, error in starts], rtol
+            )  # fmt: skip
+            stage = stacked(
+                [stage_tangents(*each, requested[None], rtol, take(begin, slice(i, i + 1)))
+                 for i, each in enumerate(zip(orbits, single, edges, strict=True))]
+            )  # fmt: skip
         else:
-            equation = parametrised(scenes, acting, keys)
-            states = orbit(equation, requested[:, -1], rtol, begin[0], begin[1], keep=True)
-            stage = tangents(equation, states, requested, rtol, begin[2], begin[3])
+            equation, ends = parametrised(scenes, acting, keys), np.full(number, requested[-1])
+            states = orbit(equation, ends, rtol, wear, wear_error, keep=True)
+            stage = tangents(equation, states, np.tile(requested, (number, 1)), rtol, begin)
         for array, values in zip(result, stage, strict=True):
             array[..., within] = values[..., :-1]
-        u, error, *derivative = (values[..., -1] for values in stage[:4])
-        begin = u, error * u, *derivative
-        if end >= last or not np.isfinite(begin[1]).all():
+        wear, relative, *derivatives, _ = (values[..., -1] for values in stage)
+        wear_error, begin = relative * wear, Known(*derivatives)
+        if end >= last or not np.isfinite(wear_error).all():
             break
         done = acting[0].until
     unknown = np.isnan(result.derivative_error)
     error = np.where(unknown, np.inf, result.derivative_error)
     return result._replace(derivative_error=error), grazes
-
-
-def _with_loss_of_contact(
-    equations: Sequence[ParametrisedEquation],
-    edges: Sequence[Edge],
-    cycles: FloatArray,
-    rtol: float,
-    begin: Sequence[FloatArray],
-) -> Tangents:
-    """Return the derivatives of the wear after `cycles` (n,) of a stage, scene by scene; at its
-    `begin` are known the wear (s,) with its error, and the derivatives (s, k) with theirs."""
-    requests = [
-        CountRequest(equation.model, equation.loads[0], edge, float(cycles[-1]), float(u), float(e))
-        for equation, edge, u, e in zip(equations, edges, *begin[:2], strict=True)
-    ]
-    scenes = zip(count_scenes(requests, rtol), equations, edges, strict=True)
-    rows = [
-        stage_tangents(*scene, cycles[None], rtol, begin[2][[i]], begin[3][[i]])
-        for i, scene in enumerate(scenes)
-    ]
-    return Tangents(*map(np.concatenate, zip(*rows, strict=True)))
 
 
 def _grazes(equation: WearEquation, edge: Edge) -> bool:

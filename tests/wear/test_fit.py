@@ -232,6 +232,24 @@ def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found):
     assert wide == pytest.approx(band / steepness, rel=0.01)
 
 
+def test_precise_readings_far_from_the_start_are_fitted():
+    """Residuals of thousands of standard errors are residuals all the same."""
+    wear_mm = wear.solve("section4", CYCLES.astype(int), rtol=1e-8).u_c
+    readings = Specimen("", CYCLES, wear_mm, 1e-4 * wear_mm, {})
+    scene = load_scene("section4").with_({K: 5e-6})
+    assert wear.fit([readings], scene, K).estimates == pytest.approx([1e-6], rel=1e-6)
+
+
+def test_numbers_of_cycles_may_be_an_array_and_a_depth_zero(found):
+    document = found.as_json(np.array([10, 100]), 0.0)
+    assert [row["cycles"] for row in document["forecast"]] == [10, 100]
+    assert document["next_reading"] == found.next_reading(100)._asdict()
+    assert [row["cycles"] for row in document["cycles_to_wear"]] == [0]
+    for call in (lambda: found.next_reading(0), lambda: posterior(found, 5, seed=2**32)):
+        with pytest.raises(UsageError, match="is not a whole number"):
+            call()
+
+
 def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found):
     advice = found.next_reading(1e6)
     slope = found.model(found.theta[None])[1][0]

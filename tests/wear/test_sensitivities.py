@@ -341,6 +341,18 @@ def test_a_number_without_influence_is_refused_with_a_remedy() -> None:
         gradients([load_scene("section4")], ["pin.hardness_MPa", "load.periods"], CYCLES)
 
 
+@pytest.mark.parametrize("cycles", [[float("nan")], [1.5], -1, [1e13], []])
+def test_only_whole_numbers_of_cycles_have_gradients(cycles: Any) -> None:
+    with pytest.raises(UsageError, match="cycles: "):
+        gradients([load_scene("section4")], ["bearing.wear_coefficient"], cycles)
+
+
+def test_a_key_that_is_named_twice_is_refused() -> None:
+    """And not given a derivative of zero at its first place."""
+    with pytest.raises(UsageError, match="hardness_MPa is named twice"):
+        gradients([load_scene("section4")], 2 * ["bearing.hardness_MPa"], 1)
+
+
 def test_an_error_of_the_density_at_the_start_of_a_panel_is_in_the_estimate() -> None:
     """There the residual of Abel's equation is small, but its derivative is not."""
     changes = {

@@ -76,6 +76,21 @@ def test_what_cannot_vary_is_refused_with_the_remedy(text, word):
         parse(text)
 
 
+@pytest.mark.parametrize(
+    ("made", "word"),
+    [
+        (lambda: Levels("a.b", ()), "finite"),
+        (lambda: Levels("a.b", (1.0, 1.0)), "twice"),
+        (lambda: Distribution("a.b", "gauss", (1.0, 2.0)), "choose one of"),
+        (lambda: Distribution("a.b", "uniform", (2.0, 1.0)), "low < high"),
+        (lambda: Distribution("a.b", "normal", (0.0, np.inf)), "finite"),
+    ],
+)
+def test_what_cannot_vary_is_refused_without_a_text_too(made, word):
+    with pytest.raises(UsageError, match=word):
+        made()
+
+
 def test_two_thirds_of_a_lognormal_quantity_are_within_its_factor():
     law = Distribution("a.b", "lognormal", (3.0, 2.0))
     low, high = stats.norm.cdf([-1.0, 1.0])
@@ -242,6 +257,16 @@ def test_a_scene_that_fails_is_a_row_with_its_reason(tmp_path, monkeypatch):
     assert found["status"].values.tolist() == [0, RowStatus.FAILED, 0, 0, 0]
     assert str(found["reason"].values[1]) == "ZeroDivisionError: division by zero"
     assert np.isnan(found["bearing_wear_mm"].values[:, 0]).tolist() == [False, True] + [False] * 3
+
+
+@pytest.mark.usefixtures("small_chunks")
+def test_a_study_without_any_answer_has_no_picture(tmp_path):
+    vary, seed = [f"{HARDNESS}=uniform(-2,200)"], np.int64(1)
+    found = study("section4", vary, 9, tmp_path / "a.zarr", design="random", samples=8, seed=seed)
+    found["status"][:] = RowStatus.INVALID_SCENE
+    for picture in (wear.picture, wear.ten_percent_life):
+        with pytest.raises(UsageError, match=r"no row has an answer|is missing"):
+            picture(found)
 
 
 # Implausible magnitudes
@@ -444,11 +469,28 @@ def test_the_indices_of_a_product_are_those_of_its_logarithms():
     assert indices(found).axes
 
 
+def test_a_seed_makes_indices_and_their_confidence_reproducible():
+    from wear.studies.indices import sobol_indices
+
+    vary = [f"{HARDNESS}=uniform(100,300)", f"{GROWTH}=uniform(0.1,0.3)"]
+    one, other = (sobol_indices("section4", vary, [9], samples=16, seed=3) for _ in range(2))
+    assert one.identical(other)
+
+
+def test_a_single_key_has_no_indices():
+    from wear.studies.indices import sobol_indices
+
+    with pytest.raises(UsageError, match="two keys or more"):
+        sobol_indices("section4", f"{HARDNESS}=normal(200,10)", [1, 2], samples=4)
+
+
 def test_indices_of_scenes_without_an_answer_are_refused():
     from wear.studies.indices import sobol_indices
 
     with pytest.raises(UsageError, match="narrow the distributions"):
-        sobol_indices("section4", [f"{HARDNESS}=normal(10,10)"], [1], samples=16)
+        sobol_indices(
+            "section4", [f"{HARDNESS}=normal(10,10)", f"{GROWTH}=uniform(0,1)"], 1, samples=16
+        )
 
 
 # The command

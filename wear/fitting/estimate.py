@@ -92,6 +92,11 @@ class Estimate:
         """Return the size (p,) of every parameter, see `Model.scale`."""
         return self.model.scale(self.theta)
 
+    @property
+    def box(self) -> tuple[FloatArray, FloatArray]:
+        """Return the centre and the half widths (p,) of the range of the parameters."""
+        return self.theta, PARAMETER_RANGE * self.scale
+
     @cached_property
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Return the `directions` for residuals with a scatter of 1."""
@@ -104,24 +109,22 @@ class Estimate:
         these directions (p, p), one a row, relative to `scale`."""
         return self.scatter * self._modes[0], self._modes[1]
 
+    def factors(self, gradients: FloatArray) -> FloatArray:
+        """Return the factor F (m, p) of the covariance F F^T of quantities with these gradients
+        (m, p) in theta, for residuals with a scatter of 1."""
+        errors, rows = self._modes
+        return np.asarray((gradients * self.scale) @ rows.T * errors)
+
     def spread(self, gradients: FloatArray) -> FloatArray:
         """Return the standard errors (m,) of quantities with these gradients (m, p) in theta."""
-        errors, rows = self._modes
-        components = (gradients * self.scale) @ rows.T * errors
-        return np.asarray(self.scatter * np.linalg.norm(components, axis=-1))
-
-    @property
-    def unscaled_covariance(self) -> FloatArray:
-        """Return the covariance (p, p) of theta for residuals with a scatter of 1; it is huge along
-        directions that the data do not determine."""
-        errors, rows = self._modes
-        factor = rows.T * errors * self.scale[:, None]
-        return np.asarray(factor @ factor.T)
+        return np.asarray(self.scatter * np.linalg.norm(self.factors(gradients), axis=-1))
 
     @property
     def covariance(self) -> FloatArray:
-        """Return the covariance (p, p) of theta."""
-        return self.scatter**2 * self.unscaled_covariance
+        """Return the covariance (p, p) of theta; it is huge along directions that the data do not
+        determine."""
+        factors = self.scatter * self.factors(np.eye(len(self.theta)))
+        return np.asarray(factors @ factors.T)
 
     @property
     def standard_errors(self) -> list[float]:
@@ -136,6 +139,6 @@ class Estimate:
     @property
     def correlation(self) -> FloatArray:
         """Return the correlation (p, p) of the estimates."""
-        covariance = self.unscaled_covariance
-        errors = np.sqrt(np.diag(covariance))
-        return np.asarray(covariance / np.outer(errors, errors))
+        factors = self.factors(np.eye(len(self.theta)))
+        factors /= np.linalg.norm(factors, axis=1, keepdims=True)
+        return np.asarray(factors @ factors.T)

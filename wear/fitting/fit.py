@@ -11,20 +11,22 @@ do not determine the parameters.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from wear.faults import Faults
 from wear.fitting import identifiability, laws
-from wear.fitting.estimate import PARAMETER_RANGE, Estimate
+from wear.fitting.estimate import Estimate
 from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.progress import Pace
+from wear.quantities import MOST_CYCLES
 from wear.request import whole_cycles
 from wear.states import notices_of_wear
 
@@ -93,7 +95,7 @@ class Fit(Estimate):
         """
         return list(identifiability.undetermined(self, self.profiles))
 
-    def forecast(self, cycles: Sequence[float]) -> list[Forecast]:
+    def forecast(self, cycles: float | Iterable[float]) -> list[Forecast]:
         """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
         faults, specimens = Faults(), self.model.specimens
         wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
@@ -115,17 +117,17 @@ class Fit(Estimate):
         """
         from wear.cycles import cycles_to_depth
 
-        specimens, count = self.model.specimens, len(self.model.specimens)
-        numbers = cycles_to_depth(self.scenes, np.array([wear_mm])).cycles[:, 0]
-        near = np.where(np.isfinite(numbers), numbers, 1.0)
-        around = [np.array([n, n + max(1.0, np.rint(n / 50.0))]) for n in near]
-        level, slope = self.model.log_wear(self.theta[None], around)
-        level, slope = level.reshape(count, 2), slope.reshape(count, 2, -1)[:, 0]
-        steepness = np.diff(level)[:, 0] / np.diff(np.log(around))[:, 0]
+        specimens = self.model.specimens
+        numbers = cycles_to_depth(self.scenes, wear_mm).cycles[:, 0]
+        near = np.clip(np.where(np.isfinite(numbers), numbers, 1.0), 1.0, 0.98 * MOST_CYCLES)
+        around = np.stack([near, near + np.maximum(1.0, np.rint(near / 50.0))], axis=1)
+        level, slope = self.model.log_wear(self.theta[None], [*around])
+        rise = np.diff(level.reshape(around.shape)) / np.diff(np.log(around))
         with np.errstate(all="ignore"):
-            width = self.quantile * self.spread(slope) / steepness
-        rows = zip(specimens, numbers.tolist(), width.tolist(), strict=True)
-        return [Forecast(s.name, n, wear_mm, _band(float(np.log(n)), half)) for s, n, half in rows]
+            width = self.quantile * self.spread(slope[0, ::2]) / rise[:, 0]
+            rows = zip(specimens, numbers, np.log(numbers), width, strict=True)
+            return [Forecast(s.name, float(n), wear_mm, _band(level, half))
+                    for s, n, level, half in rows]  # fmt: skip
 
     def next_reading(self, cycles: float | None = None) -> NextReading:
         """Return the one further reading, of any specimen within the cycles read so far, that
@@ -133,26 +135,22 @@ class Fit(Estimate):
         were read)."""
         specimens, faults = self.model.specimens, Faults()
         last = max(float(specimen.cycles[-1]) for specimen in specimens)
-        ahead = whole_cycles(cycles or min(AHEAD * last, 1e12), faults, least=1)
+        farthest = min(AHEAD * last, MOST_CYCLES) if cycles is None else cycles
+        ahead = whole_cycles(farthest, faults, least=1)
         faults.stop_if_any()
         tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
         slots = [np.append(tried, max(ahead))] * len(specimens)
         level, slope = self.model.log_wear(self.theta[None], slots)
         residuals = self.model.residuals
         weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
-        shape = (len(specimens), len(tried) + 1, -1)
-        target = slope.reshape(shape)[:, -1]
-        read = (slope * np.reshape(weight, (-1, 1))).reshape(shape)[:, :-1]
-        read = read.reshape(-1, slope.shape[-1])
-        covariance = self.unscaled_covariance
-        shared = target @ covariance @ read.T
-        own = 1.0 + np.einsum("ij,jk,ik->i", read, covariance, read)
-        before = float(np.einsum("ij,jk,ik->", target, covariance, target))
-        gain = np.sum(shared**2, axis=0) / own
-        best = int(np.argmax(gain))
-        factor = float(np.sqrt(max(0.0, 1.0 - gain[best] / before)))
-        name = specimens[best // len(tried)].name
-        return NextReading(name, float(tried[best % len(tried)]), factor)
+        factors = self.factors(slope[0]).reshape(len(specimens), len(tried) + 1, -1)
+        target, read = factors[:, -1], weight.reshape(len(specimens), -1, 1) * factors
+        # A reading removes the part of the variances that it shares with the targets.
+        shared = np.einsum("tp,snp->snt", target, read[:, :-1])
+        gain = np.sum(shared**2, axis=-1) / (1.0 + np.sum(read[:, :-1] ** 2, axis=-1))
+        which, best = np.unravel_index(np.argmax(gain), gain.shape)
+        left = max(0.0, 1.0 - gain[which, best] / np.sum(target**2))
+        return NextReading(specimens[which].name, float(tried[best]), float(np.sqrt(left)))
 
     def alternatives(self) -> list[laws.Alternative]:
         """Return the fits of simpler laws to the same readings."""
@@ -166,15 +164,16 @@ class Fit(Estimate):
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
             return float(np.nan)
-        box = self.theta, PARAMETER_RANGE * self.scale
-        theta = descend(early, self.theta[None], box)[0][0]
-        level, _ = model.log_wear(theta[None], [s.cycles[-1:] for s in model.specimens])
+        theta, _ = descend(early, self.theta[None], self.box)
+        level, _ = model.log_wear(theta, [s.cycles[-1:] for s in model.specimens])
         return laws.forecast_rms(model.specimens, level[0])
 
-    def as_json(self, cycles: Sequence[float] = (), wear_mm: float | None = None) -> dict[str, Any]:
+    def as_json(self, cycles: ArrayLike = (), wear_mm: float | None = None) -> dict[str, Any]:
         """Return the document of `wear fit --json`, with forecasts for numbers of `cycles` and the
         life to a wear depth."""
         others, own_forecast = self.alternatives(), self.forecast_rms
+        wanted = np.ravel(cycles).tolist()
+        forecast = self.forecast(wanted) if wanted else []
         return {
             "scene": self.model.scene.title or self.model.scene.name,
             "observations": len(self.residuals),
@@ -187,10 +186,14 @@ class Fit(Estimate):
             "aicc": self.aicc,
             "forecast_rms": own_forecast,
             "undetermined": [each._asdict() for each in self.undetermined()],
-            "forecast": [each._asdict() for each in self.forecast(cycles)] if cycles else [],
-            "cycles_to_wear": [each._asdict() for each in self.life(wear_mm)] if wear_mm else [],
+            "forecast": [each._asdict() for each in forecast],
+            "cycles_to_wear": [
+                each._asdict() for each in ([] if wear_mm is None else self.life(wear_mm))
+            ],
             "alternatives": [each._asdict() for each in others],
-            "next_reading": self.next_reading(max(cycles, default=None))._asdict(),
+            "next_reading": self.next_reading(
+                max((each.cycles for each in forecast), default=None)
+            )._asdict(),
             "notices": self._notices(others, own_forecast),
         }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -20,7 +21,6 @@ from wear.sensitivities import gradients
 from wear.words import are_texts
 
 RTOL = 1e-7  # of the wear: far below any scatter
-MISSING_RESIDUAL = 1e3  # at a point without a scene or without wear
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,9 @@ class FitModel:
         values = self.residuals(level)
         slope = self.residuals.slope(level)[..., None] * slope
         valid = np.isfinite(values) & np.all(np.isfinite(slope), axis=-1)
-        return np.where(valid, values, MISSING_RESIDUAL), np.where(valid[..., None], slope, 0.0)
+        return np.where(valid, values, self.residuals.missing), np.where(
+            valid[..., None], slope, 0.0
+        )
 
     def cost(self, points: FloatArray) -> FloatArray:
         """Return the sums of the squared residuals (m,)."""
@@ -149,36 +151,30 @@ class FitModel:
 
         Without a scene or without wear they are NaN.
         """
-        wanted, keys = np.unique(np.concatenate(cycles)), self.keys
-        scenes: dict[int, list[Scene]] = {}
+        keys, scenes = self.keys, list[Scene]()
+        valid = np.full(len(points), False)
         for place, theta in enumerate(points):
-            try:
-                scenes[place] = self.scenes(theta)
-            except (SceneError, OverflowError):
-                continue
-        level = np.full((len(points), sum(map(len, cycles))), np.nan)
+            with suppress(SceneError, OverflowError):
+                scenes += self.scenes(theta)
+                valid[place] = True
+        counts = np.concatenate(cycles)
+        level = np.full((len(points), len(counts)), np.nan)
         slope = np.zeros((*level.shape, len(self.parameters)))
         if not scenes:
             return level, slope
-        there, many = list(scenes), len(self.specimens)
-        wear, derivative = _gradients([s for group in scenes.values() for s in group], keys, wanted)
-        wear = wear.reshape(len(there), many, -1)
-        derivative = derivative.reshape(len(there), many, len(keys), -1)
-        scale = np.array(
-            [p.value(points[there, i]) if p.positive else np.ones(len(there))
-             for i, p in enumerate(self.parameters)]
-        )  # fmt: skip
-        end = 0
+        wanted, column = np.unique(counts, return_inverse=True)
+        which = np.repeat(np.arange(len(cycles)), [len(each) for each in cycles])
+        wear, derivative = (
+            np.moveaxis(x.reshape(-1, len(cycles), *x.shape[1:]), -1, 2)[:, which, column]
+            for x in _gradients(scenes, keys, wanted)
+        )
+        names = np.array([specimen.name for specimen in self.specimens])
         with np.errstate(all="ignore"):
-            for at, (specimen, counts) in enumerate(zip(self.specimens, cycles, strict=True)):
-                begin, end = end, end + len(counts)
-                column = np.searchsorted(wanted, counts)
-                u = wear[:, at, column]
-                level[there, begin:end] = np.log(u)
-                for i, parameter in enumerate(self.parameters):
-                    if parameter.specimen in ("", specimen.name):
-                        relative = derivative[:, at, keys.index(parameter.key)][:, column] / u
-                        slope[there, begin:end, i] = scale[i][:, None] * relative
+            level[valid] = np.log(wear)
+            for i, p in enumerate(self.parameters):
+                size = p.value(points[valid, i, None]) if p.positive else 1.0
+                acts = names[which] == p.specimen if p.specimen else True
+                slope[valid, :, i] = acts * size * derivative[..., keys.index(p.key)] / wear
         return level, slope
 
 

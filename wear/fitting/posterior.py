@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from importlib.util import find_spec
 from numbers import Integral
 from typing import Any
@@ -15,6 +14,7 @@ from wear.numerics.gauss import FloatArray
 
 WALKERS = 4  # a parameter, and no fewer than LEAST_WALKERS
 LEAST_WALKERS = 32
+MOST_STEPS = 10**6
 BURN_IN = 0.3  # share of the steps that is dropped
 SPREAD = 0.3  # of the walkers' starts, in standard errors and at most in sizes
 
@@ -43,10 +43,13 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     """
     if not isinstance(found, Estimate):
         raise UsageError("a posterior needs a fit; give the result of wear.fit")
-    given: Mapping[str, tuple[Any, int]] = {"steps": (steps, 1), "seed": (seed, 0)}
-    for name, (number, least) in given.items():
-        if not isinstance(number, Integral) or number < least:
-            raise UsageError(f"{name}: {number!r} is not a whole number from {least}")
+    bounds: dict[str, tuple[Any, int, int]] = {
+        "steps": (steps, 1, MOST_STEPS),
+        "seed": (seed, 0, 2**32 - 1),
+    }
+    for name, (number, least, most) in bounds.items():
+        if not isinstance(number, Integral) or not least <= int(number) <= most:
+            raise UsageError(f"{name}: {number!r} is not a whole number from {least} to {most}")
     if not find_spec("emcee"):
         raise UsageError("a posterior needs emcee: pip install 'derive-wear[fit]'")
     import emcee

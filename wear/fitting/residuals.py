@@ -10,6 +10,8 @@ import numpy as np
 from wear.fitting.readings import Specimen
 from wear.numerics.gauss import FloatArray
 
+MISSING = 1e3  # difference without wear: e-folds, or mm
+
 
 @dataclass(frozen=True)
 class Residuals:
@@ -39,6 +41,11 @@ class Residuals:
             return cls(observed, np.ones(len(observed)), relative, known=False)
         weight = (observed if relative else 1.0) / np.concatenate(errors)
         return cls(observed, weight, relative, known=True)
+
+    @property
+    def missing(self) -> float:
+        """Return the residual of a reading without wear: more than any other."""
+        return MISSING * float(np.max(self.weight))
 
     def __call__(self, log_wear: FloatArray) -> FloatArray:
         """Return the residuals (..., n)."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -29,7 +28,15 @@ from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import settings
 from wear.orbit.segments import AnyIterates
-from wear.orbit.tangent import Tangents, after_on_cells, sums_on_cells
+from wear.orbit.tangent import (
+    Known,
+    MapDerivatives,
+    Tangents,
+    after_each_cycle,
+    after_on_cells,
+    sums_on_cells,
+    tangents_by_segment,
+)
 from wear.orbit.transient import SAFETY
 from wear.parameters import ParametrisedEquation
 from wear.scene_orbit import SceneOrbit
@@ -45,56 +52,37 @@ def stage_tangents(
     edge: Edge,
     cycles: FloatArray,
     rtol: float,
-    start: FloatArray,
-    start_error: FloatArray,
+    start: Known,
 ) -> Tangents:
     """Return the derivatives of the wear of one scene after `cycles` (1, n) by its `solution` to
-    `rtol`; the first wear has the derivative `start` (1, parameters), known up to `start_error`.
+    `rtol`, from those (1, parameters) of the first wear.
 
     The cycles of all segments are linearised at once; where many of them lie along a series of
     increments, their derivatives are a series, too.
     """
     size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
     cycle = switched_period_map(*scene, size.finer_nodes, size.endpoint_tolerance)
-    runs = _of_each(cycle, equation, [segment.iterates for segment in solution.orbit.segments])
-    u, error = (values[None] for values in solution.after(cycles[0]))
-    derivative, derivative_error = np.full((2, 1, equation.parameters, cycles.shape[1]), np.nan)
-    increment = np.zeros(cycles.shape)
-    now, now_error = start[0], start_error[0]
-    for segment, run in zip(solution.orbit.segments, runs, strict=True):
-        begins, iterates = segment.begins, segment.iterates
-        here = cycles[0] >= begins
-        last = iterates.whole_cycles
-        wanted = np.append(np.minimum(cycles[0, here] - begins, last), last)
+    segments = [segment.iterates for segment in solution.orbit.segments]
+    runs = _of_each(cycle, equation, segments)
+
+    def in_segment(number: int, wanted: FloatArray, before: Known) -> tuple[Known, FloatArray]:
+        iterates, run = segments[number], runs[number]
         if isinstance(iterates, Iterates):
-            part = _one_by_one(iterates, run, wanted, now, now_error)
-        elif isinstance(iterates, TabulatedIterates):
+            return _one_by_one(iterates, run, wanted, before)
+        if isinstance(iterates, TabulatedIterates):
             limit = derivative_of_origin(equation, iterates.coordinate)
-            part = _tabulated(iterates, run, limit, wanted, now, now_error)
-        elif iterates.at_rest[0]:
-            limit = np.tile(
-                derivative_of_grazing_wear(equation, solution.last_wear), (len(wanted), 1)
-            )
-            part = _StageTangents(limit, np.abs(limit) / LIMIT_DIGITS, np.zeros_like(wanted))
-        else:  # an unresolved segment: no cycle of it is known
-            unknown = np.full((len(wanted), equation.parameters), np.inf)
-            part = _StageTangents(unknown, unknown, np.zeros_like(wanted))
-        derivative[0, :, here], derivative_error[0, :, here] = part.derivative[:-1], part.error[:-1]
-        increment[0, here] = part.increment[:-1]
-        now, now_error = part.derivative[-1], part.error[-1]
+            return _tabulated(iterates, run, limit, wanted, before)
+        # In an unresolved segment no cycle is known.
+        limit = np.full(equation.parameters, np.inf)
+        if iterates.at_rest[0]:
+            limit = derivative_of_grazing_wear(equation, solution.last_wear)
+        found = np.broadcast_to(limit, (*wanted.shape, len(limit)))
+        return Known(found, np.abs(found) / LIMIT_DIGITS), np.zeros_like(wanted)
+
+    found = tangents_by_segment(solution.orbit, cycles, start, in_segment)
     # Errors by rounding and by the mesh of phase are relatively as large as those of the wear.
-    derivative_error += error[:, None] * np.abs(derivative)
-    derivative_error = np.where(np.isfinite(derivative_error), derivative_error, np.inf)
-    return Tangents(u, error, derivative, derivative_error, increment)
-
-
-class _StageTangents(NamedTuple):
-    """The `derivative` (n, parameters) after some cycles of a stage, its `error`, and the
-    `increment` (n,) of the last cycle."""
-
-    derivative: FloatArray
-    error: FloatArray
-    increment: FloatArray
+    error = found.derivative_error + found.error[:, None] * np.abs(found.derivative)
+    return found._replace(derivative_error=np.where(np.isfinite(error), error, np.inf))
 
 
 def _starts(iterates: AnyIterates) -> FloatArray:
@@ -132,29 +120,20 @@ def _resolved(iterates: TabulatedIterates, t: FloatArray) -> FloatArray:
 
 
 def _one_by_one(
-    iterates: Iterates,
-    run: CycleDerivatives,
-    cycles: FloatArray,
-    start: FloatArray,
-    start_error: FloatArray,
-) -> _StageTangents:
-    """Return the derivatives after some of the single cycles (n,)."""
-    values, errors = [start], [start_error]
+    iterates: Iterates, run: CycleDerivatives, cycles: FloatArray, start: Known
+) -> tuple[Known, FloatArray]:
+    """Return the derivatives after some of the single cycles (1, n), and the last increments."""
     derivatives, derivatives_error = run.along(0.0)
     tangents, beside = np.split(derivatives, [iterates.integrated_cycles])
     difference, abrupt = derivatives_error[: len(tangents)], _abrupt(iterates)
     difference[abrupt] += np.abs(tangents[abrupt] - beside)
-    for tangent, local_error in zip(tangents, difference, strict=True):
-        multiplier, by_parameters = 1.0 + tangent[0], tangent[1:]
-        by_start = multiplier * values[-1]
-        local = local_error[0] * np.abs(values[-1]) + local_error[1:]
-        error = np.abs(multiplier) * errors[-1] + SAFETY * local
-        rounding = ROUNDOFF * (np.abs(by_start) + np.abs(by_parameters))
-        values.append(by_start + by_parameters)
-        errors.append(error + SAFETY * rounding)
+    tangents[:, 0] += 1.0
+    of_cycles, error = (MapDerivatives(x[None, :, :1], x[None, :, 1:])
+                        for x in (tangents, difference))  # fmt: skip
+    found = after_each_cycle(start, of_cycles, error, np.full((1, len(tangents)), ROUNDOFF))
     index = cycles.astype(int)
     added = np.concatenate([[0.0], np.diff(iterates.transient[0])])
-    return _StageTangents(np.array(values)[index], np.array(errors)[index], added[index])
+    return Known(*(values[:, index[0]] for values in found)), added[index]
 
 
 def _tabulated(
@@ -162,10 +141,10 @@ def _tabulated(
     run: CycleDerivatives,
     limit: FloatArray,
     cycles: FloatArray,
-    start: FloatArray,
-    start_error: FloatArray,
-) -> _StageTangents:
-    """Return the derivatives after `cycles` (n,) in a table between two grazing wears.
+    start: Known,
+) -> tuple[Known, FloatArray]:
+    """Return the derivatives after `cycles` (1, n) in a table between two grazing wears, and the
+    last increments.
 
     The sums are those of the difference to `limit` (parameters,), the derivative of the grazing
     wear: that is smooth in the distance. At a limit wear the last cycles hardly change it.
@@ -177,16 +156,14 @@ def _tabulated(
         for columns in (slice(None, -len(CHECKS)), slice(-len(CHECKS), None))
     )
     into_z = 1.0 / z.rate(iterates.table.u[:1], np.ones(1))
-    sums = sums_on_cells(
-        count, nodes, checks, (into_z * (start - limit))[None], (into_z * start_error)[None]
-    )
+    from_limit = Known(into_z * (start.derivative - limit), into_z * start.error)
+    sums = sums_on_cells(count, nodes, checks, from_limit)
     wanted = np.minimum(cycles, iterates.reach)
-    at, _ = count.after(wanted[None])
-    by_z, error_of_z, rate = (part[0] for part in after_on_cells(count, sums, wanted[None], at))
-    from_z = z.rate(at[0], np.ones(1))[:, None]
-    rounding = SAFETY * ROUNDOFF * np.abs(limit)
-    derivative, error = limit + from_z * by_z, from_z * error_of_z + rounding
-    return _StageTangents(derivative, error, from_z[:, 0] * rate)
+    at, _ = count.after(wanted)
+    by_z, rate = after_on_cells(count, sums, wanted, at)
+    from_z = z.rate(at, np.ones(1))[..., None]
+    error = from_z * by_z.error + SAFETY * ROUNDOFF * np.abs(limit)
+    return Known(limit + from_z * by_z.derivative, error), from_z[..., 0] * rate
 
 
 def _added(

@@ -16,7 +16,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol, cast
 
 import numpy as np
@@ -70,7 +70,7 @@ class Tangents(NamedTuple):
 
 class MapDerivatives(NamedTuple):
     """Cycles from some starts: `multiplier` (scenes, starts) dP/du, and `by_parameters` (scenes,
-    starts, parameters) dP/dp."""
+    starts, parameters) dP/dp; or the errors of these."""
 
     multiplier: FloatArray
     by_parameters: FloatArray
@@ -104,103 +104,111 @@ class OrbitSums(NamedTuple):
     series: FloatArray
 
 
+class Known(NamedTuple):
+    """Derivatives du/dp (s, ..., parameters) of some scenes, and their estimated `error`."""
+
+    derivative: FloatArray
+    error: FloatArray
+
+
+InSegment = Callable[[int, FloatArray, Known], tuple[Known, FloatArray]]
+"""The derivatives (s, c, parameters) after `cycles` (s, c) since the start of the segment with a
+number, where they are those of the scenes (s,) at its start; and the increments (s, c) of the last
+cycles."""
+
+
 def tangents(
-    problem: ParametrisedProblem,
-    orbit: Orbit,
-    cycles: FloatArray,
-    rtol: float,
-    start: FloatArray,
-    start_error: FloatArray,
+    problem: ParametrisedProblem, orbit: Orbit, cycles: FloatArray, rtol: float, start: Known
 ) -> Tangents:
-    """Return the derivatives of the states of an `orbit` after `cycles` (s, c), if the first state
-    has the derivative `start` (s, parameters), known up to `start_error`. The orbit was computed to
-    `rtol`, with its cycles kept."""
-    shape = (orbit.scenes, problem.parameters, cycles.shape[1])
-    derivative, derivative_error = np.full(shape, np.nan), np.full(shape, np.inf)
-    u, increment = np.full((2, *cycles.shape), np.nan)
-    error = np.full(cycles.shape, np.inf)
-    onward, onward_error = start.copy(), start_error.copy()
-    for segment in orbit.segments:
-        which, since = segment.which, cycles[segment.which] - segment.begins[:, None]
-        iterates = cast(Iterates, segment.iterates)
-        last = iterates.whole_cycles
-        wanted = np.concatenate([np.clip(since, 0.0, last[:, None]), last[:, None]], axis=1)
-        state, relative = iterates.after(wanted)
-        own, own_error, added = _in_segment(
-            problem.take(which), iterates, wanted, state, rtol, onward[which], onward_error[which]
-        )
-        here = (since >= 0)[:, None]
-        relative = relative + segment.start_error[:, None] / (state + TINY)
-        known = np.isfinite(relative[:, :-1]) & (since <= iterates.reach[:, None])
-        u[which] = np.where(here[:, 0], state[:, :-1], u[which])
-        relative = np.where(known, relative[:, :-1], np.inf)
-        error[which] = np.where(here[:, 0], relative, error[which])
-        derivative[which] = np.where(here, own[..., :-1], derivative[which])
-        derivative_error[which] = np.where(here, own_error[..., :-1], derivative_error[which])
-        increment[which] = np.where(here[:, 0], added[:, :-1], increment[which])
-        onward[which], onward_error[which] = own[..., -1], own_error[..., -1]
-    derivative_error = np.where(np.isfinite(error)[:, None], derivative_error, np.inf)
-    return Tangents(u, error, derivative, derivative_error, increment)
+    """Return the derivatives of the states of an `orbit` after `cycles` (s, c), if those of the
+    first state are known. The orbit was computed to `rtol`, with its cycles kept."""
+
+    def in_segment(number: int, wanted: FloatArray, before: Known) -> tuple[Known, FloatArray]:
+        segment = orbit.segments[number]
+        own = problem.take(segment.which)
+        return _in_segment(own, cast(Iterates, segment.iterates), wanted, rtol, before)
+
+    return tangents_by_segment(orbit, cycles, start, in_segment)
+
+
+def tangents_by_segment(
+    orbit: Orbit, cycles: FloatArray, start: Known, in_segment: InSegment
+) -> Tangents:
+    """Return the derivatives of the states of an `orbit` after `cycles` (s, c), segment by segment,
+    from those at its `start`."""
+    u, error = orbit.after(cycles)
+    derivative = np.full((*cycles.shape, start.derivative.shape[1]), np.nan)
+    bound, increment = np.full(derivative.shape, np.inf), np.zeros(cycles.shape)
+    now = Known(start.derivative.copy(), start.error.copy())
+    for number, (which, iterates, begins, *_) in enumerate(orbit.segments):
+        since, last = cycles[which] - begins[:, None], iterates.whole_cycles[:, None]
+        wanted = np.concatenate([np.clip(since, 0.0, last), last], axis=1)
+        own, added = in_segment(number, wanted, take(now, which))
+        for array, part in zip((derivative, bound, increment), (*own, added), strict=True):
+            here = since >= 0.0 if part.ndim == 2 else (since >= 0.0)[..., None]
+            array[which] = np.where(here, part[:, :-1], array[which])
+        now.derivative[which], now.error[which] = (values[:, -1] for values in own)
+    bound[~np.isfinite(error)] = np.inf
+    derivative, bound = np.moveaxis(derivative, 2, 1), np.moveaxis(bound, 2, 1)
+    return Tangents(u, error, derivative, bound, increment)
 
 
 def _in_segment(
     problem: ParametrisedProblem,
     iterates: Iterates,
     cycles: FloatArray,
-    u: FloatArray,
     rtol: float,
-    start: FloatArray,
-    start_error: FloatArray,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the derivatives (s, parameters, c) after `cycles` (s, c) since the start of a segment,
-    which lead to the states u (s, c), their error, and the increments of the last cycles (s, c)."""
+    start: Known,
+) -> tuple[Known, FloatArray]:
+    """Return the derivatives after `cycles` (s, c) since the start of a segment, see `InSegment`,
+    and the increments of the last cycles (s, c)."""
     size = settings(rtol, problem.breakpoints)
     maps = period_map(problem, iterates.edges, size.phase_nodes, ITERATION_TOLERANCE)
-    early, early_error = _in_transient(maps, iterates, size, start, start_error)
+    early = _in_transient(maps, iterates, size, start)
     number = iterates.integrated_cycles
     index = np.minimum(cycles, number).astype(int)
     rows = np.arange(len(cycles))[:, None]
-    derivative, error = early[rows, index], early_error[rows, index]
+    found = Known(early.derivative[rows, index], early.error[rows, index])
     added = np.diff(iterates.transient, axis=1)
     increment = added[rows, np.maximum(index - 1, 0)] if number else np.empty(cycles.shape)
     if iterates.table is not None:
-        sums = _on_panels(maps, iterates, size, early[:, -1], early_error[:, -1])
+        sums = _on_panels(maps, iterates, size, Known(*(x[:, -1] for x in early)))
         late = cycles > number if number else np.full(cycles.shape, True)
-        first = iterates.table.u.reshape(len(u), -1)[:, :1]
-        far = after_on_cells(iterates, sums, np.maximum(cycles, number), np.maximum(u, first))
-        derivative = np.where(late[..., None], far[0], derivative)
-        error = np.where(late[..., None], far[1], error)
-        increment = np.where(late, far[2], increment)
-    return np.moveaxis(derivative, 2, 1), np.moveaxis(error, 2, 1), increment
+        counted = np.maximum(cycles, number)
+        far, far_increment = after_on_cells(iterates, sums, counted, iterates.after(counted)[0])
+        found = Known(*(np.where(late[..., None], *pair) for pair in zip(far, found, strict=True)))
+        increment = np.where(late, far_increment, increment)
+    return found, increment
 
 
-def _in_transient(
-    maps: PeriodMap,
-    iterates: Iterates,
-    size: Settings,
-    start: FloatArray,
-    start_error: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Return du/dp (s, k + 1, parameters) after 0, 1, ... k integrated cycles, and its error."""
-    derivative, error = [start], [start_error]
-    scenes, k = len(start), iterates.integrated_cycles
+def _in_transient(maps: PeriodMap, iterates: Iterates, size: Settings, start: Known) -> Known:
+    """Return du/dp (s, k + 1, parameters) after 0, 1, ... k integrated cycles."""
+    scenes, k = len(start.derivative), iterates.integrated_cycles
     if k == 0:
-        return start[:, None], start_error[:, None]
+        return Known(*(values[:, None] for values in start))
     starts = iterates.transient[:, :-1].reshape(-1, 1)
     coarse, fine = _of_cycles(maps.take(np.repeat(np.arange(scenes), k)), starts, size)
-    # dP/du and dP/dp of every cycle
-    E, D, finer_E, finer_D = (x.reshape(scenes, k, -1) for x in (*coarse, *fine))
+    E, D = (values.reshape(scenes, k, -1) for values in fine)
+    off = [np.abs(x - y.reshape(x.shape)) for x, y in zip((E, D), coarse, strict=True)]
     of_state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
-    for i in range(k):
-        derivative.append(finer_E[:, i] * derivative[-1] + finer_D[:, i])
-    values = np.stack(derivative, axis=1)
-    before, grown = values[:, :-1], finer_E * values[:, :-1]
-    difference = np.abs((finer_E - E) * before) + np.abs(finer_D - D)
-    terms = np.abs(grown) + np.abs(finer_D)
-    local_error = SAFETY * (difference + of_state[..., None] * terms)
-    for i in range(k):
-        error.append(finer_E[:, i] * error[-1] + local_error[:, i])
-    return values, np.stack(error, axis=1)
+    return after_each_cycle(start, MapDerivatives(E, D), MapDerivatives(*off), of_state)
+
+
+def after_each_cycle(
+    start: Known, cycles: MapDerivatives, error: MapDerivatives, relative: FloatArray
+) -> Known:
+    """Return du/dp (s, k + 1, parameters) after 0, 1, ... k cycles, of which the derivatives,
+    `multiplier` (s, k, 1) and `by_parameters` (s, k, parameters), have an absolute `error` and a
+    `relative` one (s, k)."""
+    derivative, bound = [start.derivative], [start.error]
+    for i in range(relative.shape[1]):
+        (E, D), (of_E, of_D) = (tuple(x[:, i] for x in each) for each in (cycles, error))
+        grown = E * derivative[-1]
+        local = of_E * np.abs(derivative[-1]) + of_D
+        local += relative[:, i, None] * (np.abs(grown) + np.abs(D))
+        derivative.append(grown + D)
+        bound.append(np.abs(E) * bound[-1] + SAFETY * local)
+    return Known(np.stack(derivative, axis=1), np.stack(bound, axis=1))
 
 
 def _of_cycles(
@@ -231,37 +239,27 @@ def _linearised_twice(
     return [*map_derivatives(maps, starts, run), *map_derivatives(fine, starts, judge)]
 
 
-def _on_panels(
-    maps: PeriodMap,
-    iterates: Iterates,
-    size: Settings,
-    start: FloatArray,
-    start_error: FloatArray,
-) -> OrbitSums:
+def _on_panels(maps: PeriodMap, iterates: Iterates, size: Settings, start: Known) -> OrbitSums:
     """Return S on the cells of a count table, from du/dp (s, parameters) where the first of each
-    scene starts, and its error."""
+    scene starts."""
     panels = iterates.density
     assert panels is not None
-    scenes = len(start)
+    scenes = len(start.derivative)
     own = maps.take(np.repeat(np.arange(scenes), len(panels.series) // scenes))
     at = chebyshev_nodes(panels.series.shape[1]), CHECKS
     nodes, checks = (
         _added(each, panels, t, run)
         for each, t, run in zip((own, own.finer(size)), at, iterates.cycles, strict=True)
     )
-    return sums_on_cells(iterates, nodes, checks, start, start_error)
+    return sums_on_cells(iterates, nodes, checks, start)
 
 
 def sums_on_cells(
-    iterates: Iterates,
-    nodes: abel.SumIncrements,
-    checks: abel.SumIncrements,
-    start: FloatArray,
-    start_error: FloatArray,
+    iterates: Iterates, nodes: abel.SumIncrements, checks: abel.SumIncrements, start: Known
 ) -> OrbitSums:
     """Return S on the cells of a count table, from du/dp (s, parameters) where the first of each
-    scene starts, its error, and the cycles from the `nodes` of panels. Those from the CHECKS, by a
-    finer map, give the error."""
+    scene starts, and the cycles from the `nodes` of panels. Those from the CHECKS, by a finer map,
+    give the error."""
     panels, table = iterates.density, iterates.table
     assert panels is not None
     assert table is not None
@@ -280,12 +278,14 @@ def sums_on_cells(
     of_density = near_checks(of_density[panel], t).max(axis=1) * np.minimum(table.number, 1.0)
     of_count = np.diff(iterates.count_error, axis=1).reshape(-1, 1) / table.number[:, None]
     error = SAFETY * (worst * table.number[:, None] + of_count * absolute)
-    first = 1.0 / table.first_rate.reshape(len(start), -1)[:, 0, None, None]
-    shape = (len(start), -1, start.shape[1])
-    sums = np.concatenate([first * start[:, None], gain.reshape(shape)], axis=1).cumsum(axis=1)
-    terms = np.concatenate([np.abs(first * start[:, None]), absolute.reshape(shape)], axis=1)
+    scenes, parameters = start.derivative.shape
+    rate = table.first_rate.reshape(scenes, -1)[:, 0, None, None]
+    first, first_error = (values[:, None] / rate for values in start)
+    shape = (scenes, -1, parameters)
+    sums = np.concatenate([first, gain.reshape(shape)], axis=1).cumsum(axis=1)
+    terms = np.concatenate([np.abs(first), absolute.reshape(shape)], axis=1)
     error = error.reshape(shape) + of_density.reshape(*shape[:2], 1) * terms.cumsum(axis=1)[:, :-1]
-    errors = np.concatenate([first * start_error[:, None], error], axis=1)
+    errors = np.concatenate([first_error, error], axis=1)
     return OrbitSums(sums[:, :-1], errors.cumsum(axis=1), series)
 
 
@@ -322,9 +322,9 @@ def _at_cells(
 
 def after_on_cells(
     iterates: Iterates, sums: OrbitSums, cycles: FloatArray, states: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> tuple[Known, FloatArray]:
     """Return du/dp (s, c, parameters) after `cycles` (s, c) on the count table, which lead to the
-    `states` (s, c), its error, and du/dn."""
+    `states` (s, c), and du/dn."""
     table, panels = iterates.table, iterates.density
     assert table is not None
     assert panels is not None
@@ -332,7 +332,8 @@ def after_on_cells(
     begins = table.cycles.reshape(scenes, -1)
     cell = np.stack([cell_of(*pair) for pair in zip(begins, cycles, strict=True)])
     flat = (cell + of_scene * np.arange(scenes)[:, None]).ravel()
-    u = states.ravel()
+    first = table.u.reshape(scenes, -1)[:, :1]  # rounding may lead below it
+    u = np.maximum(states, first).ravel()
     x = np.log1p((u - table.u[flat]) / table.offset[flat]) / table.length[flat]
     rule = gauss(NODES)
     beside = np.where(x < 0.5, x + BESIDE, x - BESIDE)
@@ -355,4 +356,4 @@ def after_on_cells(
     count = iterates.count_error[rows, cell + 1][..., None]
     error = error + (own + growth * count + ROUNDOFF) * np.abs(total) + dS_dn * count
     du_dn = du_dn.reshape(*cycles.shape, 1)
-    return du_dn * total, du_dn * error, du_dn[..., 0]
+    return Known(du_dn * total, du_dn * error), du_dn[..., 0]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from wear.faults import Faults
 from wear.numerics.gauss import FloatArray
+from wear.request import is_number
 from wear.studies.vary import Distribution, Levels, Vary
 
 Chunk = tuple[slice, ...]
@@ -91,20 +92,13 @@ class Design:
             return {v.key: axis.ravel() for v, axis in zip(self.vary, grid, strict=True)}
         points = self._points(chunk[0].start, chunk[0].stop)
         return {
-            vary.key: vary.quantile(points[:, column])
-            for column, vary in enumerate(self.vary)
-            if isinstance(vary, Distribution)
+            vary.key: vary.quantile(each) for vary, each in zip(self.vary, points.T, strict=True)
         }
 
     def random_rows(self, rows: int) -> dict[str, FloatArray]:
         """Return the values of every key in a few rows drawn at random from the study."""
         random = np.random.default_rng(self.seed)
-        return {
-            vary.key: random.choice(_levels(vary), rows)
-            if isinstance(vary, Levels)
-            else vary.quantile(random.random(rows))
-            for vary in self.vary
-        }
+        return {vary.key: vary.quantile(random.random(rows)) for vary in self.vary}
 
     def _points(self, start: int, stop: int) -> FloatArray:
         """Return samples start to stop of the unit cube (rows, keys)."""
@@ -152,7 +146,7 @@ def _faults(design: Design) -> Iterator[str]:
             return
     for name in ("samples", "seed"):
         given = getattr(design, name)
-        if not isinstance(given, int | np.integer) or given < 0:
+        if not is_number(given) or not isinstance(given, int | np.integer) or given < 0:
             yield f"{name}: {given!r} is not a whole number >= 0"
             return
     if design.kind != "grid" and design.samples < 1:

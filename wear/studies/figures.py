@@ -36,7 +36,12 @@ def picture(results: xarray.Dataset) -> Figure:
     """
     _require(results, "bearing_wear_mm")
     if "sample" in results.dims:
-        return life(results) if "cycles_to_wear" in results else band(results)
+        if "cycles_to_wear" in results:
+            return life(results)
+        with styled():
+            figure, axes = canvas(COLUMN, 0.7 * COLUMN)
+            _band(axes, results)
+        return figure
     keys = [str(name) for name in results["bearing_wear_mm"].dims if name != "cycle"]
     return lines(results, keys[0]) if len(keys) == 1 else heat_map(results, keys[0], keys[1])
 
@@ -46,11 +51,9 @@ def lines(results: xarray.Dataset, key: str) -> Figure:
     with styled():
         figure, axes = canvas(COLUMN, 0.7 * COLUMN)
         for place, cycles in enumerate(results["cycle"].values.tolist()):
-            look = stroke(place)
             wear = results["bearing_wear_mm"].isel(cycle=place).values * _MICROMETRES_PER_MM
-            axes.plot(
-                results[key].values, wear, color=look["color"], label=f"{in_short(cycles)} cycles"
-            )
+            color, label = stroke(place)["color"], f"{in_short(cycles)} cycles"
+            axes.plot(results[key].values, wear, color=color, label=label)
         _scale(axes, "x", results[key].values)
         _scale(axes, "y", results["bearing_wear_mm"].values)
         axes.set_xlabel(label_of(key))
@@ -77,15 +80,6 @@ def heat_map(results: xarray.Dataset, across: str, up: str) -> Figure:
         _scale(axes, "y", results[up].values)
         axes.set_xlabel(label_of(across))
         axes.set_ylabel(label_of(up))
-    return figure
-
-
-def band(results: xarray.Dataset) -> Figure:
-    """Return the median of the wear and the bands of 50 % and 90 % of the samples over cycles; for
-    one number of cycles, the distribution of the wear."""
-    with styled():
-        figure, axes = canvas(COLUMN, 0.7 * COLUMN)
-        _band(axes, results)
     return figure
 
 
@@ -121,8 +115,8 @@ def indices(results: xarray.Dataset) -> Figure:
             ends = np.abs(
                 np.stack([last[f"{name}_low"].values, last[f"{name}_high"].values]) - value
             )
-            look = stroke(0 if offset > 0 else 1)
-            axes.barh(place + offset, value, 0.36, xerr=ends, color=look["color"], label=words)
+            color = stroke(0 if offset > 0 else 1)["color"]
+            axes.barh(place + offset, value, 0.36, xerr=ends, color=color, label=words)
         axes.set_yticks(place, [key.split(".")[-1].replace("_", " ") for key in last["key"].values])
         axes.set_xlabel("Share of the variance of the wear")
         axes.legend()
@@ -139,9 +133,13 @@ def ten_percent_life(results: xarray.Dataset) -> float:
 def _require(results: xarray.Dataset, name: str) -> None:
     if name not in getattr(results, "data_vars", ()):
         raise UsageError(f"results: {name} is missing; give the results of a study that has it")
+    if not np.any(results["status"] == 0):
+        raise UsageError("results: no row has an answer; their status and reason say why")
 
 
 def _band(axes: Axes, results: xarray.Dataset) -> None:
+    """Draw the median of the wear and the bands of 50 % and 90 % of the samples over cycles; for
+    one number of cycles, the distribution of the wear."""
     wear = results["bearing_wear_mm"].values[results["status"].values == 0]
     low, lower, middle, upper, high = np.quantile(wear, _SHARES, axis=0) * _MICROMETRES_PER_MM
     cycles, look = results["cycle"].values, stroke(0)

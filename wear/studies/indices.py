@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from wear.faults import UsageError
 from wear.numerics.gauss import FloatArray
 from wear.studies.design import ROWS
-from wear.studies.notices import Tally
+from wear.studies.notices import notices_of_rows
 from wear.studies.rows import RowStatus, Study, solve_rows
 from wear.studies.run import check_executor, prepare
 from wear.studies.vary import Distribution, Vary
@@ -68,17 +69,20 @@ def sobol_indices(
     request = prepare(scene, vary, cycles, "sobol", samples, seed, None, rtol)
     if samples < 2 or samples & (samples - 1):
         raise UsageError(f"samples: {samples} is not a power of two")
-    keys, tally = [each.key for each in request.design.vary], Tally(request)
+    keys = [each.key for each in request.design.vary]
+    if len(keys) < 2:
+        raise UsageError(f"vary: {keys[0]} alone has the whole variance; name two keys or more")
+    drawn: list[tuple[dict[str, FloatArray], FloatArray]] = []
 
     def wear(points: FloatArray) -> FloatArray:
         columns = dict(zip(keys, points, strict=True))
-        u_c = _wear(request, columns, executor)
-        tally.add(columns, u_c.T)
-        return u_c
+        drawn.append((columns, _wear(request, columns, executor)))
+        return drawn[-1][1].T
 
     laws = [each.frozen for each in request.design.vary if isinstance(each, Distribution)]
     indices = stats.sobol_indices(func=wear, n=samples, dists=laws, rng=np.random.default_rng(seed))
-    spread = indices.bootstrap(confidence_level=CONFIDENCE, n_resamples=RESAMPLES)
+    with _global_random_numbers(seed):
+        spread = indices.bootstrap(confidence_level=CONFIDENCE, n_resamples=RESAMPLES)
     arrays = {}
     for name in ("first_order", "total_order"):
         interval = getattr(spread, name).confidence_interval
@@ -86,11 +90,24 @@ def sobol_indices(
                             ("_high", interval.high)):  # fmt: skip
             arrays[name + end] = (("key", "cycle"), np.atleast_2d(values).T)
     coordinates = {"key": keys, "cycle": list(request.cycles)}
-    return xarray.Dataset(arrays, coordinates, {"notices": list(tally.notices)})
+    return xarray.Dataset(arrays, coordinates, {"notices": notices_of_rows(request, drawn)})
+
+
+@contextmanager
+def _global_random_numbers(seed: int) -> Iterator[None]:
+    """Seed the random numbers that NumPy shares, and restore them: SciPy's bootstrap of Sobol'
+    indices takes no others."""
+    before = np.random.get_state()
+    generator = np.random.MT19937(np.random.SeedSequence(seed))
+    np.random.set_state(np.random.RandomState(generator).get_state())
+    try:
+        yield
+    finally:
+        np.random.set_state(before)
 
 
 def _wear(request: Study, columns: dict[str, FloatArray], executor: Executor | None) -> FloatArray:
-    """Return the wear (cycles, rows) of the rows of these columns, in chunks."""
+    """Return the wear (rows, cycles) of the rows of these columns, in chunks."""
     rows = len(next(iter(columns.values())))
     parts = [
         {key: column[at : at + ROWS] for key, column in columns.items()}
@@ -103,4 +120,4 @@ def _wear(request: Study, columns: dict[str, FloatArray], executor: Executor | N
             reason = next(filter(None, answers.reason))
             raise UsageError(f"a scene drawn has no answer: {reason}; narrow the distributions")
         wear.append(answers.bearing_wear_mm)
-    return np.concatenate(wear).T
+    return np.concatenate(wear)

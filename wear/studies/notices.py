@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -33,41 +33,35 @@ class Worst(NamedTuple):
     place: str
 
 
-class Tally:
-    """The implausible rows of a study, counted chunk by chunk."""
+def notices_of_rows(
+    study: Study, chunks: Iterable[tuple[Mapping[str, FloatArray], FloatArray]]
+) -> list[str]:
+    """Return the notices of the varied scene, and a sentence for each kind of excess in the rows.
 
-    def __init__(self, study: Study) -> None:
-        self._study, self._rows = study, 0
-        self._found: dict[str, Worst] = {}  # by the words of the sentence
-
-    def add(self, columns: Mapping[str, FloatArray], u_c: FloatArray) -> None:
-        """Count rows in which each key takes the values (rows,) of its column, with their wear
-        (rows, cycles) in mm; rows without an answer (NaN) are left out."""
-        self._rows += len(u_c)
+    Each chunk has the values (rows,) of each key, and the wear (rows, cycles) in mm; rows without
+    an answer (NaN) are left out.
+    """
+    total, found = 0, dict[str, Worst]()  # by the words of the sentence
+    for columns, u_c in chunks:
+        total += len(u_c)
         answered = np.isfinite(u_c).all(axis=1)
         if not answered.any():
-            return
-        columns = {key: column[answered] for key, column in columns.items()}
-        for check in _checks(self._study, columns, u_c[answered]):
+            continue
+        values = {key: column[answered] for key, column in columns.items()}
+        for check in _checks(study, values, u_c[answered]):
             if (rows := int(np.count_nonzero(check.ratio > 1.0))) == 0:
                 continue
             at = int(np.argmax(check.ratio))
-            place = ", ".join(f"{key} = {column[at]:.4g}" for key, column in columns.items())
-            worst = Worst(rows, float(check.ratio[at]), check.sentence(at), place)
-            if before := self._found.get(check.words):
-                worse = max(before, worst, key=lambda each: each.ratio)
-                worst = worse._replace(rows=before.rows + rows)
-            self._found[check.words] = worst
-
-    @property
-    def notices(self) -> tuple[str, ...]:
-        """Return the notices of the varied scene, and a sentence for each kind of excess."""
-        of_scene = (text for text in self._study.scene.notices if not text.startswith(WORD))
-        of_rows = (
-            f"{worst.sentence} ({worst.rows} of {self._rows} rows; the worst has {worst.place})"
-            for worst in self._found.values()
-        )
-        return (*of_scene, *of_rows)
+            place = ", ".join(f"{key} = {column[at]:.4g}" for key, column in values.items())
+            here = Worst(rows, float(check.ratio[at]), check.sentence(at), place)
+            before = found.get(check.words, here._replace(rows=0))
+            worst = max(before, here, key=lambda each: each.ratio)
+            found[check.words] = worst._replace(rows=before.rows + rows)
+    return [
+        *(text for text in study.scene.notices if not text.startswith(WORD)),
+        *(f"{worst.sentence} ({worst.rows} of {total} rows; the worst has {worst.place})"
+          for worst in found.values()),
+    ]  # fmt: skip
 
 
 def _checks(

@@ -58,7 +58,9 @@ def solve_rows(study: Study, columns: Mapping[str, FloatArray]) -> Answers:
     A scene that is invalid, misses the accuracy or fails is a row with its status and reason.
     """
     rows = len(next(iter(columns.values())))
-    answers = _empty(rows, len(study.cycles))
+    wear, error = np.full((2, rows, len(study.cycles)), np.nan)
+    life, status = np.full(rows, np.nan), np.zeros(rows, dtype=np.uint8)
+    answers = Answers(wear, error, life, status, [""] * rows)
     scenes: dict[int, Scene] = {}
     for row in range(rows):
         try:
@@ -75,16 +77,6 @@ def solve_rows(study: Study, columns: Mapping[str, FloatArray]) -> Answers:
 def solve_chunk(study: Study, chunk: Chunk) -> Answers:
     """Return the answers of one chunk (the function that workers run)."""
     return solve_rows(study, study.design.columns(chunk))
-
-
-def _empty(rows: int, cycles: int) -> Answers:
-    return Answers(
-        np.full((rows, cycles), np.nan),
-        np.full((rows, cycles), np.nan),
-        np.full(rows, np.nan),
-        np.zeros(rows, dtype=np.uint8),
-        [""] * rows,
-    )
 
 
 def _fail(answers: Answers, row: int, status: RowStatus, reason: str) -> None:

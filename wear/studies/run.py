@@ -13,6 +13,7 @@ from concurrent.futures import (
     Future,
     wait,
 )
+from itertools import islice
 from pathlib import Path
 from traceback import walk_tb
 from typing import TYPE_CHECKING
@@ -139,7 +140,7 @@ def prepare(
     for entry in [vary] if isinstance(vary, str) or not isinstance(vary, Sequence) else vary:
         try:
             parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
-            if "." not in parsed[-1].key:
+            if "." not in str(parsed[-1].key):
                 raise UsageError(no_such_number(parsed[-1].key, parameters_of(base)))
             base.with_({parsed[-1].key: parsed[-1].example})
         except ValueError as fault:
@@ -169,7 +170,7 @@ def check_executor(executor: object) -> None:
 
 
 def _answers(
-    request: Study, chunks: Iterable[Chunk], executor: Executor | None
+    request: Study, chunks: Iterator[Chunk], executor: Executor | None
 ) -> Iterator[tuple[Chunk, Answers]]:
     """Yield every chunk with its answers, as they come."""
     if executor is None:
@@ -178,12 +179,16 @@ def _answers(
         return
     running: dict[Future[Answers], Chunk] = {}
     try:
-        for chunk in chunks:
-            running[executor.submit(solve_chunk, request, chunk)] = chunk
-            if len(running) >= IN_FLIGHT:
-                yield from _finished(running)
-        while running:
-            yield from _finished(running)
+        while True:
+            for chunk in islice(chunks, IN_FLIGHT - len(running)):
+                running[executor.submit(solve_chunk, request, chunk)] = chunk
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                answers = future.result()
+                if answers is None:  # from Dask, if a worker was lost together with its result
+                    raise CancelledError
+                yield running.pop(future), answers
     except (Exception, asyncio.CancelledError) as fault:
         if not (isinstance(fault, WORKER_FAULTS) or _of_dask(fault)):
             raise
@@ -202,14 +207,3 @@ def _of_dask(fault: BaseException) -> bool:
     frames = [frame for frame, _ in walk_tb(fault.__traceback__)]
     raised_in = frames[-1].f_globals.get("__name__", "") if frames else ""
     return any(name.startswith(DASK) for name in (type(fault).__module__, raised_in))
-
-
-def _finished(running: dict[Future[Answers], Chunk]) -> Iterator[tuple[Chunk, Answers]]:
-    """Wait for at least one of the running chunks, and yield those that are done."""
-    done, _ = wait(running, return_when=FIRST_COMPLETED)
-    for future in done:
-        answers = future.result()
-        if answers is None:  # from Dask, if a worker was lost together with its result
-            raise CancelledError
-        yield running[future], answers
-        del running[future]

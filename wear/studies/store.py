@@ -23,7 +23,7 @@ import numpy as np
 from wear.faults import UsageError
 from wear.quantities import unit_of
 from wear.studies.design import Chunk
-from wear.studies.notices import Tally
+from wear.studies.notices import notices_of_rows
 from wear.studies.rows import Answers, RowStatus, Study
 from wear.studies.vary import Levels
 
@@ -106,11 +106,12 @@ class Store:
 
     def write_notices(self) -> None:
         """Write the attribute `notices` of the results: implausible magnitudes in the rows."""
-        tally = Tally(self.study)
-        for chunk in self.design.chunks():
-            wear = np.asarray(self._group["bearing_wear_mm"][*chunk, :])
-            tally.add(self.design.columns(chunk), wear.reshape(-1, len(self.study.cycles)))
-        self._group.attrs["notices"] = list(tally.notices)
+        wear, cycles = self._group["bearing_wear_mm"], len(self.study.cycles)
+        chunks = (
+            (self.design.columns(chunk), np.asarray(wear[*chunk, :]).reshape(-1, cycles))
+            for chunk in self.design.chunks()
+        )
+        self._group.attrs["notices"] = notices_of_rows(self.study, chunks)
 
     def dataset(self) -> xarray.Dataset:
         """Return the results as a labelled dataset, read from disk as they are used."""
@@ -223,8 +224,8 @@ def identity(study: Study) -> dict[str, Any]:
         "scene": study.scene.to_tables(),
         "vary": [asdict(vary) for vary in study.design.vary],
         "design": study.design.kind,
-        "samples": study.design.samples,
-        "seed": study.design.seed,
+        "samples": int(study.design.samples),
+        "seed": int(study.design.seed),
         "cycles": list(study.cycles),
         "until_wear_mm": study.until_wear,
         "rtol": study.rtol,

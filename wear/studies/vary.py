@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from wear.faults import UsageError
 from wear.numerics.gauss import FloatArray
+from wear.request import is_number
 
 MOST_LEVELS = 10**7  # of one key
 _CALL = re.compile(r"(\w+)\(([^()]*)\)")
@@ -29,10 +31,22 @@ class Levels:
     key: str
     values: tuple[float, ...]
 
+    def __post_init__(self) -> None:
+        if not self.values or not all(is_number(x) and math.isfinite(x) for x in self.values):
+            raise UsageError(f"{self.key}: every value must be a finite number")
+        if len(set(self.values)) < len(self.values):
+            raise UsageError(f"{self.key}: a value is given twice")
+
     @property
     def example(self) -> float:
         """Return a value that the key takes."""
         return self.values[0]
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Return the values that the key does not exceed with these probabilities (< 1), if its
+        levels, in the order given, are equally likely."""
+        places = (probability * len(self.values)).astype(int)
+        return np.asarray(np.array(self.values)[places], dtype=float)
 
 
 @dataclass(frozen=True)
@@ -46,7 +60,18 @@ class Distribution:
 
     key: str
     law: str
-    parameters: tuple[float, float]
+    parameters: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        numbers = self.parameters
+        if not all(is_number(x) and math.isfinite(x) for x in numbers):
+            raise UsageError(f"{self.key}: every value must be a finite number")
+        if self.law not in DISTRIBUTIONS:
+            known = ", ".join(DISTRIBUTIONS)
+            raise UsageError(f"{self.key}: {self.law} is unknown; choose one of {known}")
+        law = DISTRIBUTIONS[self.law]
+        if len(numbers) != 2 or not law.meets(*numbers):
+            raise UsageError(f"{self.key}: {law.rule}")
 
     @property
     def example(self) -> float:
@@ -58,15 +83,7 @@ class Distribution:
         """Return the distribution of `scipy.stats`."""
         from scipy import stats
 
-        first, second = self.parameters
-        match self.law:
-            case "uniform":
-                return stats.uniform(first, second - first)
-            case "loguniform":
-                return stats.loguniform(first, second)
-            case "normal":
-                return stats.norm(first, second)
-        return stats.lognorm(math.log(second), scale=first)
+        return DISTRIBUTIONS[self.law].frozen(stats, *self.parameters)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
         """Return the values that the key does not exceed with these probabilities."""
@@ -75,14 +92,36 @@ class Distribution:
 
 Vary = Levels | Distribution
 
-# The condition on the two parameters of a distribution, and its message.
+
+class Law(NamedTuple):
+    """A kind of distribution: the condition on its two parameters, its message, and the function
+    that makes the distribution of `scipy.stats` from that module and the parameters."""
+
+    meets: Callable[[float, float], bool]
+    rule: str
+    frozen: Callable[..., Any]
+
+
 DISTRIBUTIONS = {
-    "uniform": (lambda low, high: low < high, "uniform(low,high) needs low < high"),
-    "loguniform": (lambda low, high: 0 < low < high, "loguniform(low,high) needs 0 < low < high"),
-    "normal": (lambda _, deviation: deviation > 0, "normal(mean,sd) needs sd > 0"),
-    "lognormal": (
+    "uniform": Law(
+        lambda low, high: low < high,
+        "uniform(low,high) needs low < high",
+        lambda stats, low, high: stats.uniform(low, high - low),
+    ),
+    "loguniform": Law(
+        lambda low, high: 0 < low < high,
+        "loguniform(low,high) needs 0 < low < high",
+        lambda stats, low, high: stats.loguniform(low, high),
+    ),
+    "normal": Law(
+        lambda _, deviation: deviation > 0,
+        "normal(mean,sd) needs sd > 0",
+        lambda stats, mean, deviation: stats.norm(mean, deviation),
+    ),
+    "lognormal": Law(
         lambda median, factor: median > 0 and factor > 1,
         "lognormal(median,factor) needs median > 0 and factor > 1",
+        lambda stats, median, factor: stats.lognorm(math.log(factor), scale=median),
     ),
 }
 
@@ -106,26 +145,19 @@ def parse(text: str) -> Vary:
     if not equals or not key:
         raise UsageError(f"{text!r}: write KEY=VALUES, as in bearing.hardness_MPa=100:300:21")
     if call := _CALL.fullmatch(value):
-        return _distribution(key, call[1], _numbers(text, call[2].split(",")))
+        return Distribution(key, call[1], tuple(map(_number, call[2].split(","))))
     if ":" in value:
         return _range(key, text, value.split(":"))
-    return Levels(key, _distinct(text, _numbers(text, value.split(","))))
-
-
-def _distribution(key: str, law: str, parameters: tuple[float, ...]) -> Distribution:
-    if law not in DISTRIBUTIONS:
-        raise UsageError(f"{key}: {law} is unknown; choose one of {', '.join(DISTRIBUTIONS)}")
-    meets, rule = DISTRIBUTIONS[law]
-    if len(parameters) != 2 or not meets(*parameters):
-        raise UsageError(f"{key}: {rule}")
-    return Distribution(key, law, (parameters[0], parameters[1]))
+    return Levels(key, tuple(map(_number, value.split(","))))
 
 
 def _range(key: str, text: str, parts: list[str]) -> Levels:
     spacing = parts[3].strip() if len(parts) == 4 else "linear"
     if not 3 <= len(parts) <= 4 or spacing not in ("linear", "log"):
         raise UsageError(f"{text}: write low:high:count or low:high:count:log")
-    low, high, count = _numbers(text, parts[:3])
+    low, high, count = map(_number, parts[:3])
+    if not all(map(math.isfinite, (low, high, count))):
+        raise UsageError(f"{text}: every value must be a finite number")
     if not (count.is_integer() and 2 <= count <= MOST_LEVELS):
         raise UsageError(f"{text}: the count must be a whole number from 2 to {MOST_LEVELS:.0e}")
     if not low < high or (spacing == "log" and not low > 0.0):
@@ -135,17 +167,8 @@ def _range(key: str, text: str, parts: list[str]) -> Levels:
     return Levels(key, tuple(float(f"{value:.15g}") for value in spaced(low, high, int(count))))
 
 
-def _numbers(text: str, words: list[str]) -> tuple[float, ...]:
+def _number(word: str) -> float:
     try:
-        numbers = tuple(float(word) for word in words)
+        return float(word)
     except ValueError:
-        numbers = (math.nan,)
-    if not all(map(math.isfinite, numbers)):
-        raise UsageError(f"{text}: every value must be a finite number")
-    return numbers
-
-
-def _distinct(text: str, values: tuple[float, ...]) -> tuple[float, ...]:
-    if len(set(values)) < len(values):
-        raise UsageError(f"{text}: a value is given twice")
-    return values
+        return math.nan
