@@ -112,9 +112,7 @@ def drawings(runs: Runs) -> Mapping[str, FigureFiles]:
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(
-                results.curves_by_cycles(
-                    results.committed().runs, results.SHOWN_SCENE, results.DIGITS[0]
-                )
+                results.curves_by_cycles(results.committed().shown, results.DIGITS[0])
             ),
             "figure-2a": figures_of_note.wear_of_both(runs),
             "figure-2b": figures_of_note.roughness_of_both(runs),
