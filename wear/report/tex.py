@@ -22,19 +22,6 @@ from wear.report.writer import Writer
 
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
-_PLAIN = {
-    "paragraph_open": "\n", "paragraph_close": "\n", "em_open": r"\emph{", "em_close": "}",
-    "strong_open": r"\textbf{", "strong_close": "}", "softbreak": "\n", "hardbreak": r"\\",
-    "bullet_list_open": "\\begin{itemize}\n", "bullet_list_close": "\\end{itemize}\n",
-    "ordered_list_open": "\\begin{enumerate}\n", "ordered_list_close": "\\end{enumerate}\n",
-    "list_item_open": r"\item ", "list_item_close": "\n", "thead_open": "",
-    "thead_close": "\\midrule\n", "tbody_open": "", "tbody_close": "", "tr_open": "",
-    "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}", "document_close": "",
-    "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n"
-    "\\tabcolsep4pt\\caption{",
-    "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
-    "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
-}  # fmt: skip
 
 _FORMS = str.maketrans({
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
@@ -81,7 +68,7 @@ def equations(document: Document) -> str:
 
 def _writer(document: Document) -> Writer:
     """Return the writer of tokens by ``templates/blocks.tex``."""
-    return Writer(document, _TEMPLATES.get_template("blocks.tex"), _PLAIN)
+    return Writer(document, _TEMPLATES.get_template("blocks.tex"))
 
 
 def escape(text: str) -> str:

@@ -48,7 +48,7 @@ def numbers_labels_as_the_page_does(report: Path, document: Document) -> bool:
     """Whether TeX gave equations, figures, tables and sections the numbers of the page."""
     auxiliary = report.with_suffix(".aux").read_text(encoding="utf-8")
     numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
-    named = ("claim", "derivation", "work")  # these have names, not numbers
+    named = ("claim", "der", "ref")  # these have names, not numbers
     return numbers == {
         label: mark.number
         for label, mark in document.marks.items()
