@@ -66,7 +66,13 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "mm": WEAR.scale,
         "kind": _kind(scene),
         "written": number,
-        "notices": _notices(scene, limit, curve),
+        "notices": [
+            markup(text)
+            for text in dict.fromkeys(
+                (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
+            )
+            if not text.startswith("auto: ")
+        ],
         "identifiers": list(equations),
         "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _power_of_ten(cycle)] + [-1],
         "life": list(_life(scene)) if obstacle(scene) is None else [],
@@ -150,11 +156,6 @@ def _regime(scene: Scene, limit: Asymptote | None) -> str:
 
 def _kind(scene: Scene) -> str:
     return str(scene.to_tables()["load"]["kind"])
-
-
-def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:
-    notices = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
-    return [markup(text) for text in dict.fromkeys(notices) if not text.startswith("auto: ")]
 
 
 def _life(scene: Scene) -> Iterator[tuple[float, float, str, float]]:
