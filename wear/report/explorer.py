@@ -22,7 +22,7 @@ import numpy as np
 
 from wear import own_laws
 from wear.binding import bind
-from wear.faults import AccuracyError, UsageError
+from wear.faults import AccuracyError
 from wear.fitting.readings import Specimen
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.load.conversion import as_table
@@ -76,12 +76,18 @@ def page(scene: Scene, specimens: Sequence[Specimen] = ()) -> str:
     derived = json.loads(asset("explorer.derived.json"))
     data = _data(scene, derived, specimens)
     by_name = {row["name"]: row for row in data["parameters"]}
+    scripts, laws, equations = [derived["models"]], derived["laws"], derived["equations"]
+    if own_laws.is_own(law := scene.contact.law):
+        from wear.report.explorer_derived import of_own_law
+
+        script, own = of_own_law(law)
+        scripts, laws, equations = [*scripts, script], [*laws, law], f"{equations}\n{own}"
     return TEMPLATES.get_template("explorer.html").render(
         style=f"{style()}\n{asset('explorer.css')}",
-        scripts=[derived["models"], *map(asset, SCRIPTS)],
+        scripts=[*scripts, *map(asset, SCRIPTS)],
         groups={g: [by_name[name] for name in names] for g, names in GROUPS.items()},
-        laws=derived["laws"],
-        equations=derived["equations"],
+        laws=laws,
+        equations=equations,
         data=json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
     )
 
@@ -114,15 +120,7 @@ def _data(
 
 
 def for_plots(scene: Scene) -> Scene:
-    """Return a scene whose load has as few rows as a plot needs, with a note in its description.
-
-    Raises
-    ------
-    UsageError
-        if the contact law is the scene's own.
-    """
-    if own_laws.is_own(scene.contact.law):
-        raise UsageError("the explorer has the contact laws of the package alone")
+    """Return a scene whose load has as few rows as a plot needs, with a note in its description."""
     fewer = resampled(scene, PLOT_RTOL)
     peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
     described = " ".join([scene.description, *(f"{text}." for text in fewer.notices), peaks])

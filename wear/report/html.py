@@ -43,8 +43,8 @@ _USE = re.compile(r'((?:xlink:)?href="#|url\(#)([^")]+)')
 _INK = {"#000000": "currentColor", "#ffffff": "var(--paper)"}
 
 
-def _hash(script: str) -> str:
-    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+def _base64(content: bytes) -> str:
+    return base64.b64encode(content).decode()
 
 
 def page(document: Document) -> str:
@@ -72,7 +72,7 @@ def asset(name: str) -> str:
 
 def style() -> str:
     """Return the style sheet of a page, with the font of its formulas."""
-    font = base64.b64encode(_ASSETS.joinpath("stix-two-math.woff2").read_bytes()).decode()
+    font = _base64(_ASSETS.joinpath("stix-two-math.woff2").read_bytes())
     return asset("report.css").replace(
         "url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})"
     )
@@ -122,7 +122,7 @@ TEMPLATES.filters |= {
     "e": escape,
     "text": partial(escape, quote=False),
     "words": lambda text: text.replace("-", " "),
-    "hash": _hash,
+    "hash": lambda script: f"sha256-{_base64(hashlib.sha256(script.encode()).digest())}",
     "formula": mathml.inline,
     "display": mathml.block,
     "drawing": drawing,

@@ -44,7 +44,7 @@ def report(document: Document) -> dict[str, str | bytes]:
     ValueError
         for references that lead nowhere and characters without a LaTeX form.
     """
-    body = _writer(document).written(document.tokens)
+    body = Writer(document, _TEMPLATES.get_template("blocks.tex")).written(document.tokens)
     title = re.sub(
         r"[^A-Za-z0-9À-ÖØ-öø-ÿ ,.:()\-]", "", document.title
     )  # an entry of the PDF, not typeset
@@ -55,7 +55,7 @@ def report(document: Document) -> dict[str, str | bytes]:
 
 def equations(document: Document) -> str:
     """Return one macro for each equation: the formula alone, to be set in any display."""
-    writer = _writer(document)
+    writer = Writer(document, _TEMPLATES.get_template("blocks.tex"))
     lines = ["% Formulas of the report, one macro each. Needs amsmath and amssymb."]
     for shown in document.shown:
         if not (shown.macro.isascii() and shown.macro.isalpha()):
@@ -64,11 +64,6 @@ def equations(document: Document) -> str:
         lines.append(f"% ({document.marks[f'eq:{shown.id}'].number}) {title}")
         lines.append(f"\\providecommand{{\\{shown.macro}}}{{{broken(shown.latex)}}}")
     return "\n".join(lines) + "\n"
-
-
-def _writer(document: Document) -> Writer:
-    """Return the writer of tokens by ``templates/blocks.tex``."""
-    return Writer(document, _TEMPLATES.get_template("blocks.tex"))
 
 
 def escape(text: str) -> str:
