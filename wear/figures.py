@@ -197,9 +197,16 @@ def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     _draw(axes, lines, scale)
     axes.set_ylabel(panel.quantity.label)
     limits = [panel.limit] if panel.limit is not None else []
-    _frame(axes, (*lines, *panel.points), scale, limits)
+    if axes.get_yscale() == "log":
+        axes.autoscale(axis="y")
+    else:  # zero is in sight
+        extremes = [*limits, 0.0]
+        extremes += [y for line in (*lines, *panel.points) for y in (line.y.min(), line.y.max())]
+        low, high = min(extremes) * scale, max(extremes) * scale
+        margin = 0.05 * (high - low) or 1.0
+        axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
+    hollow = {"linestyle": "", "markerfacecolor": PAPER}
     for points in panel.points:
-        hollow = {"linestyle": "", "markerfacecolor": PAPER}
         _plot(axes, points, scale, markersize=5.0, zorder=4, clip_on=False, **hollow)
     for limit in limits:
         axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
@@ -223,14 +230,3 @@ def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
     for position, line in enumerate(lines):
         start = _MARK_EVERY * (position + 0.5) / len(lines)
         _plot(axes, line, scale, markevery=(start, _MARK_EVERY), clip_on=False)
-
-
-def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:
-    """Set limits in y that contain zero on a linear axis."""
-    extremes = [*limits, *(y for line in lines for y in (line.y.min(), line.y.max()))]
-    if axes.get_yscale() == "log":
-        axes.autoscale(axis="y")
-        return
-    low, high = min(0.0, *extremes) * scale, max(0.0, *extremes) * scale
-    margin = 0.05 * (high - low) or 1.0
-    axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)

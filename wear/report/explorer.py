@@ -130,8 +130,9 @@ def for_plots(scene: Scene) -> Scene:
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene for the page; parameters that it does not model are those of section 3."""
     other = load_scene("section3").parameters() | {"k": 1e5}
-    numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
-    key = scene.variant
+    key, load = scene.variant, scene.periodic_load
+    size = load.amplitude_mm if isinstance(load, Sine) else 1.0  # the slider multiplies any other
+    numbers = other | scene.parameters() | {"U": size}
     return {
         "name": scene.name,
         "title": scene.title or scene.name,
@@ -142,14 +143,9 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "opening": scene.contact.pin_wear_opens_gap,
         "cutoff": key.ends_at_3_sigma,
         "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
-        "load": _load_data(scene.periodic_load)
+        "load": _load_data(load)
         | ({"area": {name: numbers[name] for name in AREA}} if scene.given_load else {}),
     }
-
-
-def _size(load: Load) -> float:
-    """Return the amplitude of a sine, or 1: the slider multiplies any other load."""
-    return load.amplitude_mm if isinstance(load, Sine) else 1.0
 
 
 def _load_data(load: Load) -> dict[str, Any]:
