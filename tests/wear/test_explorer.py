@@ -150,6 +150,7 @@ def test_changed_scene_does_not_hide_the_built_in_one():
     names = [scene["name"] for scene in data["scenes"]]
     assert data["first"] == names[0] == "section4 (changed)"
     assert "section4" in names
+    assert data["scenes"][0]["title"].endswith("(changed)")
     assert data["scenes"][0]["parameters"]["f_c"] == 0.3
 
 

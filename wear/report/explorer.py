@@ -8,7 +8,7 @@ Key results
     page            the file of the page
     for_plots       a scene with no more rows of its load than plots need
     scene_data      a scene in the numbers of the sliders
-    check_data      wear and wear rates of a scene, computed in Python
+    checked         wear and wear rates of scenes, computed in Python
 """
 
 from __future__ import annotations
@@ -98,8 +98,9 @@ def _data(
     scenes = {name: load_scene(name) for name in builtin_names()}
     first = for_plots(first)
     if first.name not in scenes or scenes[first.name] != first:
-        name = f"{first.name} (changed)" if first.name in scenes else first.name
-        first = replace(first, name=name)
+        if first.name in scenes:
+            title = f"{first.title or first.name} (changed)"
+            first = replace(first, name=f"{first.name} (changed)", title=title)
         scenes = {first.name: first} | scenes
     shown = [scene_data(scene) for scene in scenes.values()]
     next(each for each in shown if each["name"] == first.name)["readings"] = [
@@ -164,34 +165,30 @@ def _load_data(load: Load) -> dict[str, Any]:
     }
 
 
-def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
-    """Return wear after cycles, and wear rates along the way, as Python computes them."""
-    history = solve(scene, cycles, rtol=1e-10)
-    model = bind(scene)
-    phases = np.linspace(0.0, 1.0, 7)
-    depths = np.concatenate([[0.0], history.u_c])
-    rates = []
-    for depth in depths:
-        loads = scene.periodic_load(phases)
-        rate = model.rate(np.full_like(loads, depth), loads)
-        if model.ends_at_3_sigma and not model.compliant:
-            rate = np.where(model.margin(depth, loads) >= 0.0, rate, 0.0)
-        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, rate, strict=True)]
-    return {
-        "scene": scene.name,
-        "cycles": list(cycles),
-        "wear_mm": history.u_c.tolist(),
-        "rates": rates,
-    }
-
-
 def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
-    """Return the check data of the scenes whose wear Python computes to the requested accuracy."""
-    checks = []
+    """Return for each scene its wear after cycles, and wear rates along the way, as Python computes
+    them; scenes of which it cannot reach the requested accuracy are left out."""
+    checks, phases = [], np.linspace(0.0, 1.0, 7)
     for scene in scenes:
+        model, loads = bind(scene), scene.periodic_load(phases)
+        jumps = model.ends_at_3_sigma and not model.compliant
+        cycles = CYCLES[:3] if jumps else CYCLES
         try:
-            interrupted = scene.contact.ends_at_3_sigma and scene.support is None
-            checks.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
+            history = solve(scene, cycles, rtol=1e-10)
         except AccuracyError:
             continue
+        rates = []
+        for depth in (0.0, *history.u_c.tolist()):
+            rate = model.rate(np.full_like(loads, depth), loads)
+            if jumps:
+                rate = np.where(model.margin(depth, loads) >= 0.0, rate, 0.0)
+            rates += [[depth, float(a), float(b)] for a, b in zip(loads, rate, strict=True)]
+        checks.append(
+            {
+                "scene": scene.name,
+                "cycles": list(cycles),
+                "wear_mm": history.u_c.tolist(),
+                "rates": rates,
+            }
+        )
     return checks
