@@ -130,7 +130,8 @@ def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
         figure, axes = canvas(COLUMN, 0.6 * COLUMN)
         _draw(axes, lines, 1.0)
         axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
-        axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
+        highest = max(float(line.y.max()) for line in lines) or 1.0  # out of contact: no pressure
+        axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * highest))
         label_ends(axes, [(float(line.y.max()), line.name, _look(line)) for line in lines])
     return figure
 
