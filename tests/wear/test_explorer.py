@@ -596,3 +596,13 @@ def test_a_law_of_the_scenes_own_acts_and_has_its_equations(window, tmp_path, mo
     assert number(text(window, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
     put(window, "law", "tanh")
     assert text(window, "value-variant") == "tanh/rigid_worn_rough"
+
+
+def test_a_scene_without_any_wear_agrees_with_python(window, tmp_path, monkeypatch):
+    """So far from contact that both have a wear of zero."""
+    monkeypatch.setattr(explorer, "CHECKED", ())
+    file = tmp_path / "page.html"
+    scene = load_scene("section4", ["contact.closure_mm=1"])
+    file.write_text(explorer.page(scene), encoding="utf-8")
+    window.open(file, READY)
+    assert window.run("document.getElementById('check').className").endswith("good")
