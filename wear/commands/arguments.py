@@ -218,28 +218,22 @@ def read(options: Options) -> Faults:
 
     An argument with faults is None; a command stops at faults before it uses values.
     """
-    faults = Faults(options.faults)
-    names = getattr(options, "scene", [])
-    several = names if isinstance(names, list) else [names]
-    scenes = [_scene(name, options, faults) for name in several]
-    known = [scene for scene in scenes if scene is not None]
-    options.scene = known if several is names else scenes[0]
-    if "readings" in options and options.data is not None:
-        options.readings = _readings(options.data, known, faults)
-    return faults
-
-
-def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
     from wear.faults import SceneError
     from wear.scene import load_scene
 
-    try:
-        scene = load_scene(name, options.overrides)
-    except SceneError as fault:
-        faults.append(str(fault))
-        return None
-    faults += strict_faults(scene.notices, options)
-    return scene
+    faults = Faults(options.faults)
+    scenes: list[Scene] = []
+    names = getattr(options, "scene", [])
+    for name in names if isinstance(names, list) else [names]:
+        try:
+            scenes.append(load_scene(name, options.overrides))
+            faults += strict_faults(scenes[-1].notices, options)
+        except SceneError as fault:
+            faults.append(str(fault))
+    options.scene = scenes if isinstance(names, list) else next(iter(scenes), None)
+    if "readings" in options and options.data is not None:
+        options.readings = _readings(options.data, scenes, faults)
+    return faults
 
 
 def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Specimen, ...]:

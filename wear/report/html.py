@@ -18,14 +18,13 @@ import re
 from functools import partial
 from html import escape
 from importlib.resources import files
-from numbers import Integral
 
 import jinja2
 
 from derive.typeset import mathml
 from wear.cite import listed
 from wear.report.document import Document
-from wear.report.number import TextNumber, grouped
+from wear.report.number import grouped
 from wear.report.writer import Writer
 
 _ASSETS = files("wear.report").joinpath("assets")
@@ -78,18 +77,6 @@ def style() -> str:
     )
 
 
-def _data(node: TextNumber) -> str:
-    """Return a computed number as an element whose tooltip names its source."""
-    digits, exponent = node.decimal
-    shown = grouped(digits, "\u202f")
-    if exponent is not None:
-        shown += f"\u202f×\u202f10<sup>{exponent}</sup>"
-    unit = f"\u00a0{escape(node.unit, quote=False)}" if node.unit else ""
-    value = int(node.value) if isinstance(node.value, Integral | int) else float(node.value)
-    shown = shown.replace("-", "\u2212")
-    return f'<data value="{value!r}" title="{escape(node.source)}">{shown}{unit}</data>'
-
-
 def drawing(svg: str, label: str, description: str) -> str:
     """Return a figure as an element of the page.
 
@@ -127,5 +114,5 @@ TEMPLATES.filters |= {
     "display": mathml.block,
     "drawing": drawing,
     "listed": listed,
-    "data": _data,
+    "grouped": partial(grouped, separator="\u202f"),
 }
