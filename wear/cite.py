@@ -6,7 +6,7 @@ The entries are in ``data/references.bib``, each below a comment on its purpose.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib.resources import files
 from typing import NamedTuple
 
@@ -61,11 +61,8 @@ def bibtex(reference: Reference) -> str:
     return f"% {reference.purpose}\n@{reference.kind}{{{reference.key},\n{fields}\n}}"
 
 
-def _entries(text: str) -> Iterator[Reference]:
-    for match in _ENTRY.finditer(text):
-        fields = dict(_FIELD.findall(match["fields"]))
-        yield Reference(match["key"], match["kind"], match["purpose"], fields)
-
-
 _BIB = files("wear").joinpath("data", "references.bib").read_text(encoding="utf-8")
-REFERENCES: Mapping[str, Reference] = {entry.key: entry for entry in _entries(_BIB)}
+REFERENCES: Mapping[str, Reference] = {
+    key: Reference(key, kind, purpose, dict(_FIELD.findall(fields)))
+    for purpose, kind, key, fields in _ENTRY.findall(_BIB)
+}

@@ -143,7 +143,8 @@ def panels_of(
                 known = np.isfinite(values)
                 line = Line(curve.name, x[known], values[known], curve.family)
                 if several:
-                    full = name if curve.name in _PLAIN else f"{name}, {curve.name}"
+                    full = as_typed(name)
+                    full += "" if curve.name in _PLAIN else f", {curve.name}"
                     line = replace(line, name=full, family=place, variant=variant)
                 lines.append(line)
         if lines:
@@ -170,13 +171,18 @@ def points_of(
     first, families = next(iter(runs.values())), dict(zip(runs, range(len(runs)), strict=True))
     return tuple(
         Line(
-            f"{each.name} measured".strip(),
+            f"{as_typed(each.name)} measured".strip(),
             abscissa.of(runs.get(each.name, first), each.cycles),
             each.wear_mm,
             families.get(each.name, _MEASURED + place),
         )
         for place, each in enumerate(specimens)
     )
+
+
+def as_typed(name: str) -> str:
+    """Return a user's name for a figure, in which dollars would otherwise enclose mathtext."""
+    return name.replace("$", r"\$")
 
 
 def spans_decades(lines: Sequence[Line]) -> bool:

@@ -142,23 +142,17 @@ def spread(heights: FloatArray, gap: float) -> FloatArray:
     return np.asarray(np.maximum(np.minimum(apart, 1.0 - steps[::-1]), steps), dtype=np.float64)
 
 
-def _settle(figure: Figure) -> None:
-    """Lay the figure out once for all files: each drawing would move the axes a little more.
-
-    The layout engine ``"none"`` would leave a placeholder, for which every file is drawn twice.
-    """
-    if (layout := figure.get_layout_engine()) is not None:
-        layout.execute(figure)
-        with mpl.rc_context({"figure.constrained_layout.use": False}):
-            figure.set_layout_engine(None)
-
-
 def encoded(figure: Figure, suffix: str) -> bytes:
     """Return the figure as a file of that suffix: ``.svg``, ``.pdf`` or ``.png``, without date."""
     if suffix.lower() not in _FORMATS:
         raise ValueError(f"no figure can be written as {suffix!r}: use {', '.join(_FORMATS)}")
     buffer = io.BytesIO()
     with styled():
-        _settle(figure)
+        # The figure is laid out once for all files: each drawing would move the axes a little more.
+        # The layout engine "none" would leave a placeholder, for which every file is drawn twice.
+        if (layout := figure.get_layout_engine()) is not None:
+            layout.execute(figure)
+            with mpl.rc_context({"figure.constrained_layout.use": False}):
+                figure.set_layout_engine(None)
         figure.savefig(buffer, format=suffix[1:].lower(), **_FORMATS[suffix.lower()])
     return buffer.getvalue()

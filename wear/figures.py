@@ -130,7 +130,8 @@ def pressure_in_cycles(lines: Sequence[Line]) -> Figure:
         figure, axes = canvas(COLUMN, 0.6 * COLUMN)
         _draw(axes, lines, 1.0)
         axes.set(xlabel=r"Phase in the cycle", ylabel=PRESSURE.label)
-        axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * max(float(line.y.max()) for line in lines)))
+        highest = max(float(line.y.max()) for line in lines) or 1.0  # out of contact: no pressure
+        axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.1 * highest))
         label_ends(axes, [(float(line.y.max()), line.name, _look(line)) for line in lines])
     return figure
 
@@ -197,9 +198,16 @@ def _panel(axes: Axes, panel: Panel, logarithmic: bool) -> None:
     _draw(axes, lines, scale)
     axes.set_ylabel(panel.quantity.label)
     limits = [panel.limit] if panel.limit is not None else []
-    _frame(axes, (*lines, *panel.points), scale, limits)
+    if axes.get_yscale() == "log":
+        axes.autoscale(axis="y")
+    else:  # zero is in sight
+        extremes = [*limits, 0.0]
+        extremes += [y for line in (*lines, *panel.points) for y in (line.y.min(), line.y.max())]
+        low, high = min(extremes) * scale, max(extremes) * scale
+        margin = 0.05 * (high - low) or 1.0
+        axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)
+    hollow = {"linestyle": "", "markerfacecolor": PAPER}
     for points in panel.points:
-        hollow = {"linestyle": "", "markerfacecolor": PAPER}
         _plot(axes, points, scale, markersize=5.0, zorder=4, clip_on=False, **hollow)
     for limit in limits:
         axes.axhline(limit * scale, color=INK, linewidth=0.7, linestyle=(0, (5.0, 2.0)))
@@ -223,14 +231,3 @@ def _draw(axes: Axes, lines: Sequence[Line], scale: float) -> None:
     for position, line in enumerate(lines):
         start = _MARK_EVERY * (position + 0.5) / len(lines)
         _plot(axes, line, scale, markevery=(start, _MARK_EVERY), clip_on=False)
-
-
-def _frame(axes: Axes, lines: Sequence[Line], scale: float, limits: Sequence[float] = ()) -> None:
-    """Set limits in y that contain zero on a linear axis."""
-    extremes = [*limits, *(y for line in lines for y in (line.y.min(), line.y.max()))]
-    if axes.get_yscale() == "log":
-        axes.autoscale(axis="y")
-        return
-    low, high = min(0.0, *extremes) * scale, max(0.0, *extremes) * scale
-    margin = 0.05 * (high - low) or 1.0
-    axes.set_ylim(low - margin if low < 0.0 else 0.0, high + margin)

@@ -15,7 +15,15 @@ from tests.wear.reference_scenes import REFERENCE
 from wear import benchmark, cli
 from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
-from wear.benchmark.methods import CYCLES, OWN, Answer, Case, Method, UnsuitableError, cases, names
+from wear.benchmark.methods import (
+    CYCLES,
+    OWN,
+    Answer,
+    Case,
+    Method,
+    UnsuitableError,
+    cases,
+)
 from wear.binding import bind
 from wear.commands import bench
 from wear.direct.problem import scaled_ode
@@ -58,7 +66,7 @@ def method(name, clock, calls, error=0.0, times=lambda *_: 1.0, **answer) -> Met
 
 def made_cases(*cycles: int) -> tuple[Case, ...]:
     scene = load_scene("section4")
-    return tuple(Case("made", scene, number, 2.0) for number in cycles)
+    return tuple(Case("section4", scene, number, 2.0) for number in cycles)
 
 
 def test_statuses():
@@ -125,35 +133,37 @@ def result(clock):
         method("wrong", clock, [], -0.4, lambda *_: 0.001),
     ]
     runs, starts = benchmark.benchmark(makers, made_cases(1, 100, 9000), EFFORT)
-    return results.Result(runs, starts, {"quick": 0.1}, {"absent": ("nothing",)}, machine())
+    return results.Result(machine(), runs, starts, {"quick": 0.1}, {"absent": ("nothing",)})
 
 
 def test_times_are_compared_at_equal_true_error(result):
-    here = results.grouped(result.runs, "cycles")[100]
+    here = benchmark.grouped(result.measurements, "cycles")[100]
     assert [entry.method for entry in results.best(here, 6)] == ["quick", "slow"]
     assert [entry.method for entry in results.best(here, 3)] == ["off", "quick", "slow"]
     cells = [results.cell(here, name, 6) for name in ("quick", "slow", "off", "wrong")]
     assert cells == ["2 ms", "2 s (1000x)", "off by 1e-4", "off by 40 %"]
-    assert results.cell(results.grouped(result.runs, "cycles")[9000], "slow", 6) == "~ 3 min"
+    assert (
+        results.cell(benchmark.grouped(result.measurements, "cycles")[9000], "slow", 6) == "~ 3 min"
+    )
 
 
 def test_the_sentence_names_the_fastest_and_the_ratio(result):
-    one, hundred, many = results.sentences(result.runs, "made")
+    one, hundred, many = results.sentences(result.shown)
     assert "use quick: it takes 2 ms; slow takes 10 times as long" in one
     assert "100 cycles" in hundred
     assert "1000 times" in hundred
     assert "no other method reached them" in many
-    assert "no method tried reaches them" in results.sentences(result.runs, "made", 14)[0]
+    assert "no method tried reaches them" in results.sentences(result.shown, 14)[0]
 
 
 def test_silent_failures_are_listed(result):
-    assert [run.method for run in results.silent_failures(result.runs)] == ["wrong"]
+    assert [row[0] for row in results.failure_table(result.measurements).rows] == ["wrong"]
 
 
 def test_the_raw_csv_reads_back(result):
-    rows = list(csv.DictReader(io.StringIO(results.csv_text(result.runs))))
-    assert len(rows) == len(result.runs)
-    for row, run in zip(rows, result.runs, strict=True):
+    rows = list(csv.DictReader(io.StringIO(results.csv_text(result.measurements))))
+    assert len(rows) == len(result.measurements)
+    for row, run in zip(rows, result.measurements, strict=True):
         assert row["method"] == run.method
         assert float(row["seconds"]) == run.seconds
         assert row["estimate"] == ("" if run.estimate is None else repr(run.estimate))
@@ -161,15 +171,15 @@ def test_the_raw_csv_reads_back(result):
 
 def test_report_and_documentation_have_the_same_figures():
     written = (bench.PEERS / "speed.md").read_text(encoding="utf-8")
-    assert results.markdown(results.committed(), results.SHOWN_SCENE) == written
+    assert results.markdown(results.committed()) == written
 
 
 def test_markdown_tables_have_no_loose_ends(result):
-    text = results.markdown(result, "made")
+    text = results.markdown(result)
     widths = {line.count("|") for line in results.markdown_table(results.tables(result)[0]).split()}
     assert "quick" in text
     assert "absent: not measured, nothing not installed" in text
-    assert footer(dict(result.facts)) in text
+    assert footer(dict(result.machine)) in text
     for block in text.split("\n\n"):
         if block.startswith("|"):
             assert len({line.count("|") for line in block.splitlines()}) == 1
@@ -179,8 +189,8 @@ def test_markdown_tables_have_no_loose_ends(result):
 def test_references_are_those_of_the_tests():
     labels = {"section3": "S1", "section4": "S2", "fast-wear": "S4", "f-one-eighth": "S5"}
     labels |= {"f-negative": "S6", "section3-support": "S8_1", "section4-support": "S8_2"}
-    assert set(names("speed")) == set(labels)
-    for case in cases("speed", names("speed")):
+    assert {case.name for case in cases("speed")} == set(labels)
+    for case in cases("speed"):
         assert case.wear == REFERENCE[labels[case.name]][case.cycles]
 
 
@@ -282,7 +292,7 @@ def test_the_end_of_contact_is_not_jumped_over():
 
 
 def test_the_figure_over_cycles_shows_what_was_expected(result):
-    slow = results.curves_by_cycles(result.runs, "made", 6)[1]
+    slow = results.curves_by_cycles(result.shown, 6)[1]
     assert (slow.name, slow.x.tolist()) == ("slow", [1, 100, 9000])
     assert slow.failed.tolist() == [False, False, True]
     assert slow.seconds[2] == pytest.approx(180.0)

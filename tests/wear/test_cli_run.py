@@ -178,6 +178,8 @@ def test_everything_against_states_inside_the_cycles_is_told_at_once(run):
     assert status == 2
     for phrase in ("--output", "--method", "--time-limit", "does not repeat"):
         assert phrase in messages
+    status, _, messages = run("section4", *arguments, "--cycles", "many")
+    assert (status, '"many": not a number of cycles' in messages) == (2, True)
 
 
 def test_states_inside_the_cycles_are_the_same_in_both_kinds_of_file(run, tmp_path):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import wear
+from derive.laws import LAWS
 from derive.variant import VARIANTS
 from derive.variant_equations import equations_of
 from wear.cli import main
@@ -149,6 +150,7 @@ def test_changed_scene_does_not_hide_the_built_in_one():
     names = [scene["name"] for scene in data["scenes"]]
     assert data["first"] == names[0] == "section4 (changed)"
     assert "section4" in names
+    assert data["scenes"][0]["title"].endswith("(changed)")
     assert data["scenes"][0]["parameters"]["f_c"] == 0.3
 
 
@@ -557,7 +559,7 @@ def test_a_noisy_record_and_readings_are_shown(tmp_path, window):
 
 
 def test_every_variant_is_shown_its_own_equations_and_no_others():
-    rows = list(explorer_derived._model())
+    rows = list(explorer_derived._model(LAWS))
     for variant, opening in product(VARIANTS, (False, True)):
         chosen = {
             "law": variant.law.name, "pin": variant.pin.value, "compliant": variant.compliant,
@@ -570,3 +572,37 @@ def test_every_variant_is_shown_its_own_equations_and_no_others():
         }
         own = equations_of(variant, opening=opening)
         assert shown == {(capital(each.title), each.latex) for each in own}
+
+
+def test_a_law_of_the_scenes_own_acts_and_has_its_equations(window, tmp_path, monkeypatch):
+    """Its page agrees with Python, in the end and for another variant too."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr(explorer, "CHECKED", ())
+    scene = load_scene("section4", ['contact.law={phi = "1/(1 + exp(r - 1))"}'])
+    file = tmp_path / "page.html"
+    file.write_text(explorer.page(scene), encoding="utf-8")
+    window.open(file, READY)
+    assert window.run("document.getElementById('check').className").endswith("good")
+    says(window, wear.asymptote(scene))
+    shown = "[...document.querySelectorAll('[data-holds]')].filter((row) => !row.hidden)"
+    titles = window.run(f"{shown}.map((row) => row.querySelector('p').textContent)")
+    assert "Pressure in the end" in titles
+    assert "tanh" not in window.run(f"{shown}.map((row) => row.textContent).join()")
+    put(window, "pin", "worn_rough")
+    put(window, "cycles", "1")
+    found = parse_scene(text(window, "scene-file"))
+    assert (found.contact.law, found.variant.pin) == (scene.contact.law, "worn_rough")
+    expected = wear.solve(found, [10], rtol=1e-6).u_c[0]
+    assert number(text(window, "value-wear-now")) == pytest.approx(expected, rel=1e-4)
+    put(window, "law", "tanh")
+    assert text(window, "value-variant") == "tanh/rigid_worn_rough"
+
+
+def test_a_scene_without_any_wear_agrees_with_python(window, tmp_path, monkeypatch):
+    """So far from contact that both have a wear of zero."""
+    monkeypatch.setattr(explorer, "CHECKED", ())
+    file = tmp_path / "page.html"
+    scene = load_scene("section4", ["contact.closure_mm=1"])
+    file.write_text(explorer.page(scene), encoding="utf-8")
+    window.open(file, READY)
+    assert window.run("document.getElementById('check').className").endswith("good")

@@ -260,6 +260,13 @@ def test_one_run_has_a_colour_a_quantity_and_several_a_colour_each():
     np.testing.assert_allclose(contact.lines[0].x * 3600.0, [0.06, 6.0, 300.0])
 
 
+def test_a_name_with_dollars_is_no_formula():
+    run, name = solve("section4", [1, 100], 1e-6), r"$\bad{$"
+    drawn = figures.plot({name: run, "b": run})
+    figure_style.encoded(drawn, ".svg")
+    assert drawn.axes[0].texts[0].get_text() == r"\$\bad{\$"
+
+
 def test_sliding_distance_is_that_of_the_speed():
     """22 mm at 2000 rpm: two turns in a cycle of 0.06 s."""
     slid = Abscissa.DISTANCE.of(load_scene("section4"), np.array([1.0, 1e6]))

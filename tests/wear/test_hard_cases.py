@@ -9,18 +9,18 @@ from tests.independent_loss_of_contact import CutoffJudge
 from tests.judges import problem
 from wear.benchmark import Measurement, Status
 from wear.benchmark import hard as hard_cases
-from wear.benchmark.hard import attempt, catalogue, methods_of, worst
-from wear.benchmark.methods import cases, names
+from wear.benchmark.hard import attempt, methods_of, worst
+from wear.benchmark.methods import REFERENCE, cases
 from wear.scene import hard_names, load_scene
 
 BLURRED = {"grazing": 1e-8}  # contact by 1e-9 mm of 1e-3: the data's own roundoff is 1e-9 of it
 
 
 def test_every_hard_scene_has_references():
-    assert {*hard_names(), "a-billion-cycles"} == set(names("hard"))
+    assert {*hard_names(), "a-billion-cycles"} == set(REFERENCE["hard"])
 
 
-@pytest.mark.parametrize("name", names("hard"))
+@pytest.mark.parametrize("name", REFERENCE["hard"])
 def test_the_default_method_keeps_its_word(name):
     tolerance = BLURRED.get(name, 1e-10)
     for case in cases("hard", [name]):
@@ -93,5 +93,5 @@ def test_a_method_that_was_too_slow_is_not_asked_for_more(monkeypatch):
 
 
 def test_far_cycles_are_for_the_method_that_counts_them():
-    far = [case for case in catalogue() if case.cycles > hard_cases.EVERY_CYCLE]
+    far = [case for case in cases("hard") if case.cycles > hard_cases.EVERY_CYCLE]
     assert {name for case in far for name, _ in methods_of(case)} == {"auto"}

@@ -11,19 +11,27 @@ from __future__ import annotations
 import math
 import statistics
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from wear.benchmark.methods import Answer, Case, Method, Run, UnsuitableError
 
 ROUNDING = 4e-15  # errors below count as zero
 WRONG = 1e-2  # relative error from which an answer is wrong
 NO_ANSWER = Answer(math.nan)
-LEAST_GROWTH = (
-    0.5  # least power of the cycles with which the time of a next run is expected to grow
-)
+LEAST_GROWTH = 0.5  # power of the cycles with which the time of a next run grows at least
+
+Row = TypeVar("Row")
+
+
+def grouped(rows: Iterable[Row], by: str) -> dict[Any, list[Row]]:
+    """Return rows by the value of a field in order of appearance, numbers of cycles ascending."""
+    groups: dict[Any, list[Row]] = {}
+    for row in rows:
+        groups.setdefault(getattr(row, by), []).append(row)
+    return dict(sorted(groups.items())) if by == "cycles" else groups
 
 
 class Effort(NamedTuple):
@@ -89,7 +97,7 @@ class StartUp(NamedTuple):
 
 @dataclass
 class TimedRun:
-    """A run to be repeated, its answer, and the seconds of its repetitions so far."""
+    """A run to be repeated, its last answer, and the seconds of its repetitions so far."""
 
     method: Method
     case: Case
@@ -104,11 +112,6 @@ class TimedRun:
         self.answer = self.run(self.case.cycles, self.tolerance)
         self.seconds.append(time.process_time() - start)
 
-    def measured(self) -> Measurement:
-        """Return the measurement; of several runs the first one, a warm-up, does not count."""
-        counted = self.seconds[1:] or self.seconds
-        return measurement(self.method.name, self.case, self.tolerance, counted, self.answer)
-
 
 def measurement(
     method: str, case: Case, tolerance: float, seconds: Sequence[float], answer: Answer
@@ -119,9 +122,6 @@ def measurement(
         method, case.name, case.cycles, tolerance, statistics.median(seconds), len(seconds), error,
         answer.estimate, answer.evaluations, *judge(error, tolerance, answer),
     )  # fmt: skip
-
-
-StepResult = TimedRun | Measurement | StartUp
 
 
 def judge(error: float, tolerance: float, answer: Answer = NO_ANSWER) -> tuple[Status, str]:
@@ -147,64 +147,55 @@ def benchmark(
     effort: Effort = DEFAULT,
     progress: Callable[[str], None] = lambda _: None,
 ) -> tuple[tuple[Measurement, ...], tuple[StartUp, ...]]:
-    """Measure `methods` on `cases`, and separately the start-up of each method.
+    """Measure `methods` on `cases`, those of a scene by rising cycles, and the start-up of each.
 
     `progress` is called with a line at each step.
     """
-    outcomes: list[StepResult] = []
+    runs: list[TimedRun] = []
+    starts: list[StartUp] = []
+    not_run: list[Measurement] = []
     for method in methods:
         progress(f"{method.name}: first runs")
-        outcomes += _begin(method, cases, effort.cap)
-    jobs = [outcome for outcome in outcomes if isinstance(outcome, TimedRun)]
-    _repeat([job for job in jobs if job.seconds[0] <= effort.repeated], effort, progress)
-    not_run = [outcome for outcome in outcomes if isinstance(outcome, Measurement)]
-    starts = tuple(outcome for outcome in outcomes if isinstance(outcome, StartUp))
-    return (*(job.measured() for job in jobs), *not_run), starts
-
-
-def _repeat(runs: Sequence[TimedRun], effort: Effort, progress: Callable[[str], None]) -> None:
-    """Repeat the runs in rounds, so that a busy machine disturbs all methods alike."""
-    begin = time.process_time()
-    for number in range(1, effort.rounds + 1):
-        progress(f"round {number} of {effort.rounds}")
-        for run in runs:
-            if time.process_time() - begin > effort.rest:
-                return
-            run.once()
-
-
-def _begin(method: Method, cases: Sequence[Case], cap: float) -> Iterator[StepResult]:
-    """Prepare a method for each scene and solve its cases once."""
-    for name in dict.fromkeys(case.name for case in cases):
-        of_scene = sorted((c for c in cases if c.name == name), key=lambda case: case.cycles)
-        start = time.process_time()
-        try:
-            run = method.prepare(of_scene[0].scene)
-            run(1, method.tolerances[0])  # with imports and compilation at the first use
-            yield StartUp(method.name, name, time.process_time() - start)
-            for tolerance in method.tolerances:
-                yield from _first_runs(method, run, of_scene, tolerance, cap)
-        except UnsuitableError as fault:
-            for case in of_scene:
-                skipped = Measurement(method.name, name, case.cycles, math.nan, remark=str(fault))
-                yield skipped._replace(status=Status.UNSUITABLE)
+        for name, of_scene in grouped(cases, "name").items():
+            start = time.process_time()
+            try:
+                run = method.prepare(of_scene[0].scene)
+                run(1, method.tolerances[0])  # with imports and compilation at the first use
+                starts.append(StartUp(method.name, name, time.process_time() - start))
+                for tolerance in method.tolerances:
+                    tried, skipped = _first_runs(method, run, of_scene, tolerance, effort.cap)
+                    runs += tried
+                    not_run += skipped
+            except UnsuitableError as fault:
+                for case in of_scene:
+                    lacking = Measurement(method.name, name, case.cycles, math.nan)
+                    not_run.append(lacking._replace(status=Status.UNSUITABLE, remark=str(fault)))
+    _repeat([run for run in runs if run.seconds[0] <= effort.repeated], effort, progress)
+    measured = (
+        # of several runs the first one, a warm-up, does not count
+        measurement(r.method.name, r.case, r.tolerance, r.seconds[1:] or r.seconds, r.answer)
+        for r in runs
+    )
+    return (*measured, *not_run), tuple(starts)
 
 
 def _first_runs(
     method: Method, run: Run, cases: Sequence[Case], tolerance: float, cap: float
-) -> Iterator[TimedRun | Measurement]:
-    """Solve from few cycles to many, until the expected time of a run exceeds the cap."""
-    before: list[TimedRun] = []
+) -> tuple[list[TimedRun], list[Measurement]]:
+    """Solve from few cycles to many, until the expected time of a run exceeds the cap; return what
+    was run and what was not."""
+    tried: list[TimedRun] = []
+    skipped = []
     for case in cases:
-        expected = _expected(before, case.cycles) if method.steps else 0.0
+        expected = _expected(tried, case.cycles) if method.steps else 0.0
         if expected > cap:
-            skipped = Measurement(method.name, case.name, case.cycles, tolerance, expected)
-            yield skipped._replace(remark=f"would take some {expected:.2g} s")
-            continue
-        job = TimedRun(method, case, tolerance, run)
-        job.once()
-        before.append(job)
-        yield job
+            remark = f"would take some {expected:.2g} s"
+            left_out = Measurement(method.name, case.name, case.cycles, tolerance, expected)
+            skipped.append(left_out._replace(remark=remark))
+        else:
+            tried.append(TimedRun(method, case, tolerance, run))
+            tried[-1].once()
+    return tried, skipped
 
 
 def _expected(before: Sequence[TimedRun], cycles: int) -> float:
@@ -218,3 +209,14 @@ def _expected(before: Sequence[TimedRun], cycles: int) -> float:
         growth = math.log(max(ratio, 1.0)) / math.log(last.case.cycles / before[-2].case.cycles)
         growth = min(max(growth, LEAST_GROWTH if growth > 0.1 else 0.0), 1.0)
     return float(last.seconds[0] * (cycles / last.case.cycles) ** growth)
+
+
+def _repeat(runs: Sequence[TimedRun], effort: Effort, progress: Callable[[str], None]) -> None:
+    """Repeat the runs in rounds, so that a busy machine disturbs all methods alike."""
+    begin = time.process_time()
+    for number in range(1, effort.rounds + 1):
+        progress(f"round {number} of {effort.rounds}")
+        for run in runs:
+            if time.process_time() - begin > effort.rest:
+                return
+            run.once()

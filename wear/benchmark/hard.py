@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
-from wear.benchmark import Measurement, Status, measurement
+from wear.benchmark import Measurement, Status, grouped, measurement
 from wear.benchmark.methods import (
     DEFAULT_TOLERANCE,
     SCIPY,
@@ -19,12 +19,10 @@ from wear.benchmark.methods import (
     Answer,
     Case,
     UnsuitableError,
-    cases,
-    names,
     solve_ivp_with_defaults,
     solver,
 )
-from wear.benchmark.results import TextTable, grouped, magnitude, markdown_table
+from wear.benchmark.results import TextTable, magnitude, markdown_table
 from wear.quantities import in_short
 
 LEGEND = (
@@ -36,11 +34,6 @@ LEGEND = (
 EVERY_CYCLE = 100  # cycles up to which the methods that integrate every cycle are tried
 STEPPED_TOLERANCE = 1e-6
 COUNTED_TOLERANCE = 1e-10
-
-
-def catalogue() -> tuple[Case, ...]:
-    """Return all hard cases."""
-    return cases("hard", names("hard"))
 
 
 def methods_of(case: Case) -> Iterator[tuple[str, float]]:
@@ -125,14 +118,12 @@ def failures(runs: Sequence[Measurement]) -> TextTable:
         for method, group in grouped(entries, "method").items():
             entry = worst(group)
             if entry.status is not Status.MET or not entry.honest:
-                rows.append((scene, in_short(entry.cycles, 5), method, _how(entry)))
+                how = entry.remark
+                if not entry.honest:
+                    error = f"{abs(entry.error):.1e}"
+                    how = f"claims an error of {entry.estimate:.1e}, has one of {error}"
+                rows.append((scene, in_short(entry.cycles, 5), method, how))
     return TextTable("How they fail", ("scene", "cycles", "method", "what happened"), tuple(rows))
-
-
-def _how(entry: Measurement) -> str:
-    if entry.honest:
-        return entry.remark
-    return f"claims an error of {entry.estimate:.1e}, has one of {abs(entry.error):.1e}"
 
 
 def markdown(runs: Sequence[Measurement], footer: str) -> str:

@@ -23,10 +23,18 @@ CPU = Path("/proc/cpuinfo")
 def machine(peers: bool = False) -> dict[str, Any]:
     """Return versions, processor, cores, and the load average before the measurement."""
     names = (*DISTRIBUTIONS, *(PEER_DISTRIBUTIONS if peers else ()))
+    text = CPU.read_text(encoding="utf-8", errors="replace") if CPU.exists() else ""
     return {
         "python": platform.python_version(),
         "versions": installed(names),
-        "processor": _processor(),
+        "processor": next(
+            (
+                line.partition(":")[2].strip()
+                for line in text.splitlines()
+                if line.startswith("model name")
+            ),
+            platform.processor() or platform.machine(),
+        ),
         "cores": os.cpu_count(),
         "load_average": os.getloadavg()[0] if hasattr(os, "getloadavg") else None,
     }
@@ -49,14 +57,6 @@ def installed(packages: Iterable[str]) -> dict[str, str]:
         with suppress(PackageNotFoundError):
             versions[package] = version(package)
     return versions
-
-
-def _processor() -> str:
-    if CPU.exists():
-        for line in CPU.read_text(encoding="utf-8", errors="replace").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()
 
 
 def missing(method: Method) -> tuple[str, ...]:

@@ -11,9 +11,9 @@ from __future__ import annotations
 import json
 import math
 import time
-from collections.abc import Callable, Sequence
-from functools import cache
-from pathlib import Path
+from collections.abc import Callable, Iterable
+from functools import partial
+from importlib.resources import files
 from typing import Any, Literal, NamedTuple
 
 from wear.binding import bind
@@ -22,7 +22,9 @@ from wear.load import Blocks, HistoryLoad
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
-REFERENCE = Path(__file__).parents[1] / "data" / "reference.json"
+REFERENCE: Any = json.loads(
+    files("wear").joinpath("data", "reference.json").read_text(encoding="utf-8")
+)
 CYCLES = (1, 100, 9000, 10**6, 10**8)
 ONE = ("section4",)
 FEW = ("section3", "section4", "fast-wear")
@@ -41,27 +43,20 @@ class Case(NamedTuple):
     wear: float
 
 
-@cache
-def _reference() -> Any:
-    return json.loads(REFERENCE.read_text(encoding="utf-8"))
-
-
-def names(kind: Literal["speed", "hard"]) -> tuple[str, ...]:
-    """Return the names of the scenes of the speed comparison or of the hard catalogue."""
-    return tuple(_reference()[kind])
-
-
 def cases(
-    kind: Literal["speed", "hard"], scenes: Sequence[str], cycles: Sequence[int] | None = None
+    kind: Literal["speed", "hard"],
+    scenes: Iterable[str] | None = None,
+    cycles: Iterable[int] | None = None,
 ) -> tuple[Case, ...]:
-    """Return the cases of some scenes, at the numbers of cycles with known wear.
+    """Return the cases of the speed comparison or of the hard catalogue, all or those of some
+    scenes and numbers of cycles; the cycles of a scene rise.
 
     >>> [case.cycles for case in cases("speed", ["section4"], CYCLES)]
     [1, 100, 9000, 1000000, 100000000]
     """
     known = []
-    for name in scenes:
-        entry = _reference()[kind][name]
+    for name in scenes or REFERENCE[kind]:
+        entry = REFERENCE[kind][name]
         scene = load_scene(entry["scene"], entry["set"])
         for text, wear in entry["u_c_mm"].items():
             if cycles is None or int(text) in cycles:
@@ -163,20 +158,19 @@ def solve_ivp_with_defaults(scene: Scene, method: str) -> Run:
 def _own(name: str, method: str, tolerances: tuple[float, ...]) -> Method:
     steps = method in SCIPY
     imports = ("wear.solver", "scipy.integrate") if steps else ("wear.solver",)
-    return Method(name, imports, lambda scene: solver(scene, method), tolerances, steps)
-
-
-def _solve_ivp(method: str) -> Method:
-    return Method(
-        f"solve_ivp {method}, defaults",
-        ("scipy.integrate",),
-        lambda scene: solve_ivp_with_defaults(scene, method),
-        (DEFAULT_TOLERANCE,),
-    )
+    return Method(name, imports, partial(solver, method=method), tolerances, steps)
 
 
 OWN = (
     _own("abel", "abel", (1e-4, 1e-6, 1e-9, 1e-12)),
     *(_own(f"wear {method}", method, (1e-4, 1e-6, 1e-9)) for method in SCIPY),
-    *map(_solve_ivp, WITH_DEFAULTS),
+    *(
+        Method(
+            f"solve_ivp {method}, defaults",
+            ("scipy.integrate",),
+            partial(solve_ivp_with_defaults, method=method),
+            (DEFAULT_TOLERANCE,),
+        )
+        for method in WITH_DEFAULTS
+    ),
 )

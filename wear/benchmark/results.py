@@ -6,23 +6,28 @@ import csv
 import io
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.benchmark import Measurement, StartUp, Status
+from wear.benchmark import Measurement, StartUp, Status, grouped
 from wear.benchmark.machine import footer
 from wear.figure_data import TimingCurve
 from wear.quantities import in_short
 
-Row = TypeVar("Row")
 COMMITTED = files("wear").joinpath("data", "speed.json")
-SHOWN_SCENE = "section4"
-"""The scene of the sentences and of the figures."""
+SHOWN_SCENE = "section4"  # in the sentences and the figures
 FEWEST_DRAWN = 4  # methods in a figure
+DIGITS = (6, 10)
+EXPLANATION = (
+    "Time to so many correct digits (d digits: a true relative error of at most 1e-d) against the "
+    "number of cycles N; in brackets the ratio to the fastest. ~: what it would have taken at the "
+    "loosest tolerance, not tried; off by: the best true error that was reached."
+)
+WORDS = ("scene", "method", "what happened")  # headings of columns of words
 LEAST_ERROR = float(np.finfo(float).eps) / 2  # relative, that a figure shows
 YEAR = 3.15576e7  # s
 UNITS = (  # upper limit in s, unit in s, name
@@ -43,18 +48,6 @@ def best(runs: Sequence[Measurement], digits: int) -> tuple[Measurement, ...]:
     for run in sorted(good, key=lambda run: run.seconds):
         fastest.setdefault(run.method, run)
     return tuple(fastest.values())
-
-
-def _of(runs: Sequence[Measurement], scene: str) -> list[Measurement]:
-    return [run for run in runs if run.scene == scene]
-
-
-def grouped(rows: Iterable[Row], by: str) -> dict[Any, list[Row]]:
-    """Return rows by the value of a field in order of appearance, numbers of cycles ascending."""
-    groups: dict[Any, list[Row]] = {}
-    for row in rows:
-        groups.setdefault(getattr(row, by), []).append(row)
-    return dict(sorted(groups.items())) if by == "cycles" else groups
 
 
 def cell(runs: Sequence[Measurement], method: str, digits: int) -> str:
@@ -103,15 +96,48 @@ def _rounded(number: float) -> str:
     return f"{number:.2g}" if number < 99.5 else f"{number:.0f}"
 
 
-def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple[str, ...]:
+class Result(NamedTuple):
+    """A benchmark: its measurements, start-ups and circumstances, as in the JSON document.
+
+    `import_seconds` are those of each method in a new process, `not_installed` the packages that
+    peers lack, `machine` the facts of `wear.benchmark.machine.machine`.
+    """
+
+    machine: Mapping[str, Any]
+    measurements: tuple[Measurement, ...]
+    start_up: tuple[StartUp, ...]
+    import_seconds: Mapping[str, float]
+    not_installed: Mapping[str, Sequence[str]]
+
+    @property
+    def shown(self) -> list[Measurement]:
+        """Return the runs of the scene of the sentences and the figures."""
+        return [run for run in self.measurements if run.scene == SHOWN_SCENE]
+
+    @property
+    def absences(self) -> list[str]:
+        """Return a line for each method that could not take part."""
+        return [
+            f"{method}: not measured, {' and '.join(packages)} not installed"
+            for method, packages in self.not_installed.items()
+        ]
+
+
+class TextTable(NamedTuple):
+    """A caption, a heading a column and rows of text."""
+
+    caption: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def sentences(runs: Sequence[Measurement], digits: int = 6) -> tuple[str, ...]:
     """Return a sentence for each number of cycles: the fastest method to some digits, its time."""
     texts = []
-    for cycles, group in grouped(_of(runs, scene), "cycles").items():
-        ranking = best(group, digits)
+    for cycles, group in grouped(runs, "cycles").items():
+        ranking, count = best(group, digits), in_short(cycles, 5)
         if not ranking:
-            texts.append(
-                f"{in_short(cycles, 5)} cycles, {digits} digits: no method tried reaches them."
-            )
+            texts.append(f"{count} cycles, {digits} digits: no method tried reaches them.")
             continue
         first, *others = ranking
         rest = "no other method reached them within its time limit"
@@ -119,27 +145,18 @@ def sentences(runs: Sequence[Measurement], scene: str, digits: int = 6) -> tuple
             ratio = others[0].seconds / first.seconds
             rest = f"{others[0].method} takes {_rounded(ratio)} times as long"
         texts.append(
-            f"For {digits} digits of the wear after {in_short(cycles, 5)} "
-            f"{'cycle' if cycles == 1 else 'cycles'} use {first.method}: "
-            f"it takes {duration(first.seconds)}; {rest}."
+            f"For {digits} digits of the wear after {count} {'cycle' if cycles == 1 else 'cycles'} "
+            f"use {first.method}: it takes {duration(first.seconds)}; {rest}."
         )
     return tuple(texts)
 
 
-def silent_failures(runs: Sequence[Measurement]) -> tuple[Measurement, ...]:
-    """Return silently wrong runs, by more than a percent: the worst of each method and scene."""
-    wrong = [run for run in runs if run.status is Status.WRONG]
-    rising = sorted(wrong, key=lambda run: abs(run.error))
-    worst = {(run.method, run.scene): run for run in rising}
-    return tuple(run for run in wrong if run is worst[run.method, run.scene])
-
-
-def comparable(runs: Sequence[Measurement], scene: str) -> dict[int, list[Measurement]]:
+def comparable(runs: Sequence[Measurement]) -> dict[int, list[Measurement]]:
     """Return the runs by number of cycles, beyond one, where enough methods have run to compare
     them."""
     return {
         cycles: group
-        for cycles, group in grouped(_of(runs, scene), "cycles").items()
+        for cycles, group in grouped(runs, "cycles").items()
         if cycles > 1 and len({run.method for run in group if run.repeats}) >= FEWEST_DRAWN
     }
 
@@ -148,23 +165,20 @@ def curves(runs: Sequence[Measurement]) -> list[TimingCurve]:
     """Return the completed runs of one case, by method and ascending tolerance; errors of zero are
     shown at the resolution of double precision."""
     shown = [run for run in runs if run.repeats and math.isfinite(run.error)]
-    return [
-        TimingCurve(
-            name,
-            np.array([max(abs(run.error), LEAST_ERROR) for run in own]),
-            np.array([run.seconds for run in own]),
-            np.array([run.status is not Status.MET for run in own]),
-        )
-        for name, runs in grouped(shown, "method").items()
-        for own in [sorted(runs, key=lambda run: run.tolerance)]
-    ]
+    timings = []
+    for name, own in grouped(shown, "method").items():
+        own.sort(key=lambda run: run.tolerance)
+        errors = np.array([max(abs(run.error), LEAST_ERROR) for run in own])
+        missed = np.array([run.status is not Status.MET for run in own])
+        timings.append(TimingCurve(name, errors, np.array([run.seconds for run in own]), missed))
+    return timings
 
 
-def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> list[TimingCurve]:
+def curves_by_cycles(runs: Sequence[Measurement], digits: int) -> list[TimingCurve]:
     """Return each method's time to a number of digits against the number of cycles, with the
     expected time of the first number of cycles that was skipped."""
     timings = []
-    for name, of_method in grouped(_of(runs, scene), "method").items():
+    for name, of_method in grouped(runs, "method").items():
         points = []
         for cycles, own in grouped(of_method, "cycles").items():
             waits = [run.seconds for run in own if run.status is Status.SKIPPED]
@@ -177,57 +191,23 @@ def curves_by_cycles(runs: Sequence[Measurement], scene: str, digits: int) -> li
     return timings
 
 
-class Result(NamedTuple):
-    """A benchmark: its runs, start-ups and circumstances.
-
-    `imports` are the seconds of each method's imports in a new process, `absent` the packages of
-    peers that are not installed, `facts` those of `wear.benchmark.machine.machine`.
-    """
-
-    runs: tuple[Measurement, ...]
-    starts: tuple[StartUp, ...]
-    imports: Mapping[str, float]
-    absent: Mapping[str, tuple[str, ...]]
-    facts: Mapping[str, Any]
-
-
-DIGITS = (6, 10)
-EXPLANATION = (
-    "Time to so many correct digits (d digits: a true relative error of at most 1e-d) against the "
-    "number of cycles N; in brackets the ratio to the fastest. ~: what it would have taken at the "
-    "loosest tolerance, not tried; off by: the best true error that was reached."
-)
-
-
-WORDS = ("scene", "method", "what happened")  # headings of columns of words
-
-
-class TextTable(NamedTuple):
-    """A caption, a heading a column and rows of text."""
-
-    caption: str
-    header: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-def speed_table(runs: Sequence[Measurement], scene: str, digits: int) -> TextTable:
-    """Return the table of methods against numbers of cycles."""
-    of_scene = _of(runs, scene)
-    by_cycles = grouped(of_scene, "cycles")
+def speed_table(runs: Sequence[Measurement], digits: int) -> TextTable:
+    """Return the table of methods against numbers of cycles of one scene."""
+    by_cycles = grouped(runs, "cycles")
     rows = [
         (method, *(cell(group, method, digits) for group in by_cycles.values()))
-        for method in grouped(of_scene, "method")
+        for method in grouped(runs, "method")
     ]
     header = ("method", *(f"N = {in_short(n, 5)}" for n in by_cycles))
-    return TextTable(f"{scene}, {digits} digits", header, tuple(rows))
+    return TextTable(f"{runs[0].scene}, {digits} digits", header, tuple(rows))
 
 
 def start_table(result: Result) -> TextTable:
     """Return the table of start-up times: imports in a new process, preparation for a scene."""
     rows = []
-    for method, starts in grouped(result.starts, "method").items():
+    for method, starts in grouped(result.start_up, "method").items():
         ready = [start.seconds for start in starts]
-        imports = result.imports.get(method)
+        imports = result.import_seconds.get(method)
         shown = "-" if imports is None else duration(imports)
         rows.append((method, shown, duration(min(ready)), duration(max(ready))))
     header = ("method", "imports", "ready, least", "ready, most")
@@ -235,10 +215,14 @@ def start_table(result: Result) -> TextTable:
 
 
 def failure_table(runs: Sequence[Measurement]) -> TextTable:
-    """Return the table of silently wrong answers."""
+    """Return the table of silently wrong runs, by more than a percent: the worst of each method
+    and scene."""
+    wrong = [run for run in runs if run.status is Status.WRONG]
+    worst = {(run.method, run.scene): run for run in sorted(wrong, key=lambda r: abs(r.error))}
     rows = [
         (run.method, run.scene, in_short(run.cycles, 5), f"{run.tolerance:g}", f"{run.error:+.0%}")
-        for run in silent_failures(runs)
+        for run in wrong
+        if run is worst[run.method, run.scene]
     ]
     header = ("method", "scene", "cycles", "tolerance", "true error")
     return TextTable("Silently wrong by more than a percent", header, tuple(rows))
@@ -246,9 +230,9 @@ def failure_table(runs: Sequence[Measurement]) -> TextTable:
 
 def tables(result: Result) -> tuple[TextTable, ...]:
     """Return all tables, those of the scenes first."""
-    scenes = grouped(result.runs, "scene")
-    every = [speed_table(result.runs, scene, digits) for digits in DIGITS for scene in scenes]
-    every += [failure_table(result.runs), start_table(result)]
+    scenes = grouped(result.measurements, "scene").values()
+    every = [speed_table(runs, digits) for digits in DIGITS for runs in scenes]
+    every += [failure_table(result.measurements), start_table(result)]
     return tuple(table for table in every if table.rows)
 
 
@@ -259,23 +243,12 @@ def markdown_table(table: TextTable) -> str:
     return "\n".join("| " + " | ".join(entries) + " |" for entries in lines)
 
 
-def markdown(result: Result, scene: str) -> str:
+def markdown(result: Result) -> str:
     """Return the computed part of a page: sentences on one scene, tables, the machine."""
-    parts = ["\n".join(f"- {sentence}" for sentence in sentences(result.runs, scene))]
-    parts.append(EXPLANATION)
+    parts = ["\n".join(f"- {sentence}" for sentence in sentences(result.shown)), EXPLANATION]
     for table in tables(result):
         parts += [f"**{table.caption}**", markdown_table(table)]
-    parts += absences(result)
-    parts.append(f"*{footer(result.facts)}*")
-    return "\n\n".join(parts) + "\n"
-
-
-def absences(result: Result) -> list[str]:
-    """Return a line for each method that could not take part."""
-    return [
-        f"{method}: not measured, {' and '.join(packages)} not installed"
-        for method, packages in result.absent.items()
-    ]
+    return "\n\n".join([*parts, *result.absences, f"*{footer(result.machine)}*"]) + "\n"
 
 
 def csv_text(rows: Sequence[NamedTuple]) -> str:
@@ -292,24 +265,24 @@ def csv_text(rows: Sequence[NamedTuple]) -> str:
 def committed() -> Result:
     """Return the benchmark of documentation and report, which `make bench` renews."""
     data = json.loads(COMMITTED.read_text(encoding="utf-8"))
-    runs = (
+    measurements = tuple(
         Measurement(**row)._replace(
             status=Status(row["status"]), error=math.nan if row["error"] is None else row["error"]
         )
         for row in data["measurements"]
     )
-    starts = (StartUp(**row) for row in data["start_up"])
-    absent = {name: tuple(packages) for name, packages in data["not_installed"].items()}
-    return Result(tuple(runs), tuple(starts), data["import_seconds"], absent, data["machine"])
+    start_up = tuple(StartUp(**row) for row in data["start_up"])
+    times, absent = data["import_seconds"], data["not_installed"]
+    return Result(data["machine"], measurements, start_up, times, absent)
 
 
-def document(result: Result, scene: str) -> dict[str, Any]:
+def document(result: Result) -> dict[str, Any]:
     """Return the JSON document of `wear bench`."""
     return {
-        "machine": dict(result.facts),
-        "sentences": list(sentences(result.runs, scene)),
-        "measurements": [run._asdict() for run in result.runs],
-        "start_up": [start._asdict() for start in result.starts],
-        "import_seconds": dict(result.imports),
-        "not_installed": {name: list(packages) for name, packages in result.absent.items()},
+        "machine": result.machine,
+        "sentences": sentences(result.shown),
+        "measurements": [run._asdict() for run in result.measurements],
+        "start_up": [start._asdict() for start in result.start_up],
+        "import_seconds": result.import_seconds,
+        "not_installed": result.not_installed,
     }

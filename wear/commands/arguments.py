@@ -72,12 +72,10 @@ def one_of(choices: Callable[[], Sequence[str]]) -> Callable[[str], str]:
         exact = {choice.lower(): choice for choice in choices()}
         if text.lower() in exact:
             return exact[text.lower()]
-        meant = did_you_mean(text, choices())
-        hint = f"; did you mean {meant}?" if meant else ""
         known = f"choose one of {', '.join(choices())}"
-        raise ArgumentTypeError(
-            f"{_quoted(text)} is unknown{f'{hint} ({known})' if hint else f'; {known}'}"
-        )
+        if meant := did_you_mean(text, choices()):
+            known = f"did you mean {meant}? ({known})"
+        raise ArgumentTypeError(f'"{shown(text)}" is unknown; {known}')
 
     return chosen
 
@@ -136,7 +134,8 @@ def cycles(text: str) -> tuple[int, ...]:
         or not 0 <= pair[-1] - pair[0] < MOST_IN_RANGE
     ]
     if wrong:
-        entries = ", ".join(map(_quoted, wrong[:10])) + (", ..." if len(wrong) > 10 else "")
+        entries = ", ".join(f'"{shown(entry)}"' for entry in wrong[:10])
+        entries += ", ..." * (len(wrong) > 10)
         raise ArgumentTypeError(
             f"{entries}: not a number of cycles; "
             f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
@@ -155,8 +154,7 @@ def number(low: float, high: float) -> Callable[[str], float]:
     def bounded(text: str) -> float:
         value = _number(text)
         if not low <= value <= high:
-            problem = f"is not a number from {low:g} to {high:g}"
-            raise ArgumentTypeError(f"{_quoted(text)} {problem}")
+            raise ArgumentTypeError(f'"{shown(text)}" is not a number from {low:g} to {high:g}')
         return value
 
     return bounded
@@ -172,8 +170,8 @@ def whole(low: int, high: int) -> Callable[[str], int]:
     def bounded(text: str) -> int:
         found = int(text) if text.strip().isdecimal() else _number(text)
         if not low <= found <= high or found != int(found):
-            problem = f"is not a whole number from {low:g} to {high:g}"
-            raise ArgumentTypeError(f"{_quoted(text)} {problem}")
+            of = f"a whole number from {low:g} to {high:g}"
+            raise ArgumentTypeError(f'"{shown(text)}" is not {of}')
         return int(found)
 
     return bounded
@@ -187,19 +185,16 @@ def file(*suffixes: str) -> Callable[[str], Path]:
         suffix = Path(text).suffix
         if suffix not in suffixes and suffix.lower() not in {*suffixes} & {*PICTURES}:
             raise ArgumentTypeError(f"{text}: end it in {', '.join(suffixes)}")
-        return _writable(text, files.obstacle(text))
+        if problem := files.obstacle(text):
+            raise ArgumentTypeError(problem)
+        return Path(text)
 
     return place
 
 
 def folder(text: str) -> Path:
     """Return an output folder, which is made if it is missing."""
-    return _writable(text, files.obstacle_to_folder(text))
-
-
-def _writable(text: str, problem: str | None) -> Path:
-    """Return the path of an output, or raise the problem with it."""
-    if problem is not None:
+    if problem := files.obstacle_to_folder(text):
         raise ArgumentTypeError(problem)
     return Path(text)
 
@@ -209,10 +204,6 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         return math.nan
-
-
-def _quoted(text: str) -> str:
-    return f'"{shown(text)}"'
 
 
 def strict_faults(notices: Sequence[str], options: Options) -> Faults:
@@ -227,28 +218,22 @@ def read(options: Options) -> Faults:
 
     An argument with faults is None; a command stops at faults before it uses values.
     """
-    faults = Faults(options.faults)
-    names = getattr(options, "scene", [])
-    several = names if isinstance(names, list) else [names]
-    scenes = [_scene(name, options, faults) for name in several]
-    known = [scene for scene in scenes if scene is not None]
-    options.scene = known if several is names else scenes[0]
-    if "readings" in options and options.data is not None:
-        options.readings = _readings(options.data, known, faults)
-    return faults
-
-
-def _scene(name: str, options: Options, faults: Faults) -> Scene | None:
     from wear.faults import SceneError
     from wear.scene import load_scene
 
-    try:
-        scene = load_scene(name, options.overrides)
-    except SceneError as fault:
-        faults.append(str(fault))
-        return None
-    faults += strict_faults(scene.notices, options)
-    return scene
+    faults = Faults(options.faults)
+    scenes: list[Scene] = []
+    names = getattr(options, "scene", [])
+    for name in names if isinstance(names, list) else [names]:
+        try:
+            scenes.append(load_scene(name, options.overrides))
+            faults += strict_faults(scenes[-1].notices, options)
+        except SceneError as fault:
+            faults.append(str(fault))
+    options.scene = scenes if isinstance(names, list) else next(iter(scenes), None)
+    if "readings" in options and options.data is not None:
+        options.readings = _readings(options.data, scenes, faults)
+    return faults
 
 
 def _readings(file: str, scenes: Sequence[Scene], faults: Faults) -> tuple[Specimen, ...]:

@@ -9,7 +9,7 @@ examples:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
@@ -21,7 +21,7 @@ from wear.commands import arguments
 from wear.faults import UsageError
 
 if TYPE_CHECKING:
-    from wear.benchmark.methods import Method
+    from wear.benchmark import Measurement
     from wear.benchmark.results import Result, TextTable
 
 PEERS = Path(__file__).parents[2] / "docs" / "bench"
@@ -52,56 +52,47 @@ def execute(options: Options) -> Answer:
 
 
 def _speed(options: Options) -> Answer:
-    from wear.benchmark import results as output
+    from wear.benchmark import results
     from wear.benchmark.machine import footer
 
     result = _measure(options)
-    document = output.document(result, output.SHOWN_SCENE)
+    document = results.document(result)
     if options.output is not None:
         contents: dict[str, str | bytes] = {
-            "speed.csv": output.csv_text(result.runs),
-            "speed-start.csv": output.csv_text(result.starts),
-            "speed.md": output.markdown(result, output.SHOWN_SCENE),
+            "speed.csv": results.csv_text(result.measurements),
+            "speed-start.csv": results.csv_text(result.start_up),
+            "speed.md": results.markdown(result),
             "speed.json": terminal.json_text(document),
         }
-        files.write_all(options.output, contents | _figures(result))
-    text = (*output.sentences(result.runs, output.SHOWN_SCENE), "", *output.absences(result))
-    lines = (*_tables(output.tables(result)), *text, footer(result.facts))
-    return Answer(document, lambda: "\n".join(lines))
+        files.write_all(options.output, contents | _figures(result.shown))
+    lines = [*map(_text, results.tables(result)), *document["sentences"], "", *result.absences]
+    return Answer(document, lambda: "\n".join([*lines, footer(result.machine)]))
 
 
 def _measure(options: Options) -> Result:
     from wear import benchmark
-    from wear.benchmark.machine import import_seconds, machine
-    from wear.benchmark.methods import CYCLES, FEW, ONE, cases, names
+    from wear.benchmark.machine import import_seconds, machine, missing
+    from wear.benchmark.methods import CYCLES, FEW, ONE, OWN, cases
     from wear.benchmark.results import Result
 
-    methods, absent = _methods(peers=options.peers)
+    methods = OWN
+    if options.peers:
+        methods += (*load_peers("jumps").JUMPS, *load_peers("peers").PEERS)
+    absent = {method.name: lack for method in methods if (lack := missing(method))}
+    methods = tuple(method for method in methods if method.name not in absent)
     facts = machine(options.peers)
     terminal.progress("imports")
-    timed = [] if options.quick else methods
+    timed = () if options.quick else methods
     imports = {method.name: import_seconds(method.imports) for method in timed}
     if options.quick:
         chosen, effort = cases("speed", ONE, CYCLES), benchmark.QUICK
     elif options.full:
-        chosen, effort = cases("speed", names("speed"), CYCLES), benchmark.FULL
+        chosen, effort = cases("speed", cycles=CYCLES), benchmark.FULL
     else:
         chosen, effort = cases("speed", FEW, CYCLES), benchmark.DEFAULT
     runs, starts = benchmark.benchmark(methods, chosen, effort, terminal.progress)
     terminal.progress("")
-    return Result(runs, starts, imports, absent, facts)
-
-
-def _methods(*, peers: bool) -> tuple[Sequence[Method], dict[str, tuple[str, ...]]]:
-    """Return the methods that can run here, and the missing requirements of the others."""
-    from wear.benchmark.machine import missing
-    from wear.benchmark.methods import OWN
-
-    methods = OWN
-    if peers:
-        methods = (*OWN, *load_peers("jumps").JUMPS, *load_peers("peers").PEERS)
-    absent = {method.name: lack for method in methods if (lack := missing(method))}
-    return [method for method in methods if method.name not in absent], absent
+    return Result(facts, runs, starts, imports, absent)
 
 
 def load_peers(name: str) -> ModuleType:
@@ -125,28 +116,29 @@ def load_peers(name: str) -> ModuleType:
     return module
 
 
-def _figures(result: Result) -> dict[str, bytes]:
+def _figures(runs: Sequence[Measurement]) -> dict[str, bytes]:
     """Return the figures by file name: time against the number of cycles, and against true error
     for numbers of cycles at which methods can be compared."""
-    from wear.benchmark.results import DIGITS, SHOWN_SCENE, comparable, curves, curves_by_cycles
+    from wear.benchmark.results import DIGITS, comparable, curves, curves_by_cycles
     from wear.figure_style import encoded
     from wear.figures import speed_against_cycles, speed_against_error
 
     drawn = {
-        f"speed-{cycles}": speed_against_error(curves(runs))
-        for cycles, runs in comparable(result.runs, SHOWN_SCENE).items()
+        f"speed-{cycles}.svg": speed_against_error(curves(of_cycles))
+        for cycles, of_cycles in comparable(runs).items()
     }
-    if by_cycles := curves_by_cycles(result.runs, SHOWN_SCENE, DIGITS[0]):
-        drawn["speed-cycles"] = speed_against_cycles(by_cycles)
-    return {f"{name}.svg": encoded(figure, ".svg") for name, figure in drawn.items()}
+    if by_cycles := curves_by_cycles(runs, DIGITS[0]):
+        drawn["speed-cycles.svg"] = speed_against_cycles(by_cycles)
+    return {name: encoded(figure, ".svg") for name, figure in drawn.items()}
 
 
 def _hard(options: Options) -> Answer:
     from wear.benchmark import hard
     from wear.benchmark.machine import footer, machine
+    from wear.benchmark.methods import cases
     from wear.benchmark.results import csv_text
 
-    chosen = [case for case in hard.catalogue() if not options.quick or case.cycles <= 10]
+    chosen = [case for case in cases("hard") if not options.quick or case.cycles <= 10]
     limit = HARD_SECONDS_QUICK if options.quick else HARD_SECONDS
     facts = machine()
     runs = hard.hard_cases(chosen, limit, terminal.progress)
@@ -155,13 +147,13 @@ def _hard(options: Options) -> Answer:
         page = hard.markdown(runs, footer(facts))
         contents = {"hard-cases.csv": csv_text(runs), "hard-cases.md": page}
         files.write_all(options.output, contents)
-    lines = (*_tables([hard.overview(runs), hard.failures(runs)]), hard.LEGEND, footer(facts))
+    lines = [*map(_text, (hard.overview(runs), hard.failures(runs))), hard.LEGEND, footer(facts)]
     document = {"machine": facts, "cases": [entry._asdict() for entry in runs]}
     return Answer(document, lambda: "\n".join(lines))
 
 
-def _tables(tables: Sequence[TextTable]) -> Iterator[str]:
-    for table in tables:
-        width = max(len(row[0]) for row in table.rows) if table.rows else 0
-        rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]
-        yield f"{table.caption}\n\n{terminal.table(table.header, rows)}\n"
+def _text(table: TextTable) -> str:
+    """Return a table for the terminal, its first column left-aligned."""
+    width = max((len(row[0]) for row in table.rows), default=0)
+    rows = [(row[0].ljust(width), *row[1:]) for row in table.rows]
+    return f"{table.caption}\n\n{terminal.table(table.header, rows)}\n"

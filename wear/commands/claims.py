@@ -50,21 +50,12 @@ def _lines(entries: Sequence[Entry]) -> Iterator[str]:
         yield textwrap.fill(
             finding.evidence, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT
         )
-    yield f"\n{_summary([finding.verdict for _, finding in entries])}"
+    found = Counter(finding.verdict for _, finding in entries).most_common()
+    parts = ", ".join(f"{number} {verdict}" for verdict, number in found)
+    yield f"\n{terminal.count(len(entries), 'claim')}: {parts}"
 
 
 def _known() -> Sequence[str]:
     from derive.note.claims import CLAIMS
 
     return tuple(CLAIMS)
-
-
-def _summary(verdicts: Sequence[str]) -> str:
-    """Return the number of claims by verdict.
-
-    >>> _summary(["confirmed", "refuted", "confirmed"])
-    '3 claims: 2 confirmed, 1 refuted'
-    """
-    found = Counter(verdicts).most_common()
-    parts = ", ".join(f"{number} {verdict}" for verdict, number in found)
-    return f"{terminal.count(len(verdicts), 'claim')}: {parts}"

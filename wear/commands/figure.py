@@ -12,19 +12,13 @@ examples:
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from derive import files, terminal
 from derive.command_line import Answer, Options, Parser, declare
 from wear.commands import arguments, run_output
 from wear.faults import Faults
-
-if TYPE_CHECKING:
-    from wear.fitting.readings import Specimen
-    from wear.scene import Scene
 
 POINTS = 160
 LAST = 9000  # cycle shown, unless the load ends before or readings go on
@@ -57,7 +51,7 @@ def add_arguments(parser: Parser) -> None:
 def execute(options: Options) -> Answer:
     """Solve the scenes and draw them."""
     faults = arguments.read(options)
-    scenes, inside, output = options.scene, options.inside, options.output
+    scenes, inside = options.scene, options.inside
     specimens, last = options.readings, options.cycles or ()
     if len(last) > 1 or last == (0,):
         faults.append("--cycles: give one number of cycles, from 1 on")
@@ -70,38 +64,73 @@ def execute(options: Options) -> Answer:
     if inside is not None:
         _check_inside(options, faults)
     faults.stop_if_any()
-    if inside is not None:
-        return _pressure_inside(scenes[0], inside, output)
-    return _against_cycles(options, last[0] if last else _default_last(scenes, specimens))
+    if inside is None:
+        return _against_cycles(options)
+
+    from wear.figure_data import pressure_inside
+    from wear.figure_style import encoded
+    from wear.figures import pressure_in_cycles
+
+    (scene,), output = scenes, options.output
+    drawn = pressure_in_cycles(pressure_inside(scene, inside))
+    files.write_atomically(output, encoded(drawn, output.suffix))
+    ends = [min(inside), max(inside)]
+    summary = {"scene": scene.title or scene.name, "file": str(output), "cycles": ends}
+    return Answer(summary, notices=scene.notices)
 
 
-def _default_last(scenes: Sequence[Scene], specimens: Sequence[Specimen]) -> int:
-    from wear.load.spans import most_cycles
+def _check_inside(options: Options, faults: Faults) -> None:
+    """Add the faults of a request for the pressure inside cycles."""
+    from wear.load import Blocks
+    from wear.request import obstacle
 
-    read = [int(each.cycles[-1]) for each in specimens]
-    return max(read) if read else min(LAST, *(most_cycles(scene.load) for scene in scenes))
+    others = ("cycles", "until-wear", "data", "log")
+    given = [f"--{name}" for name in others if getattr(options, name.replace("-", "_"))]
+    if options.axis != ABSCISSAE[0]:
+        given.append("--axis")
+    if given:
+        faults.append(f"--inside: does not go with {', '.join(given)}; leave one or the other out")
+    if (number := len(options.inside)) > MOST_AT_ONCE:
+        faults.append(f"--inside: {number} cycles in one figure; name up to {MOST_AT_ONCE}")
+    for scene in options.scene:
+        against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
+        if against is not None:
+            faults.append(f"--inside: {against}; leave --inside out")
 
 
-def _against_cycles(options: Options, last: int) -> Answer:
+def _against_cycles(options: Options) -> Answer:
     import numpy as np
 
     from wear.figure_data import Abscissa, panels_of, points_of
+    from wear.figure_style import encoded
     from wear.figures import history
     from wear.life import cycles_until
+    from wear.load.spans import most_cycles
     from wear.request import cycles_along
     from wear.solver import solve
 
-    abscissa, limit = Abscissa[options.axis.upper()], options.until_wear
-    stems = {Path(scene.name).stem for scene in options.scene}
-    same = len(stems) < len(options.scene)  # files of one name in several folders
-    runs = {scene.name if same else Path(scene.name).stem: scene for scene in options.scene}
-    if any(each.changes for each in options.readings):
-        runs = {each.name: options.scene[0].with_(each.changes) for each in options.readings}
+    scenes, readings, limit = options.scene, options.readings, options.until_wear
+    if options.cycles:
+        (last,) = options.cycles
+    elif readings:
+        last = max(int(each.cycles[-1]) for each in readings)
+    else:
+        last = min(LAST, *(most_cycles(scene.load) for scene in scenes))
+    if any(each.changes for each in readings):
+        runs = {each.name: scenes[0].with_(each.changes) for each in readings}
+    else:
+        runs = {Path(scene.name).stem: scene for scene in scenes}
+        if len(runs) < len(scenes):  # files of one name in several folders
+            runs = {scene.name: scene for scene in scenes}
     cycles = cycles_along(1, last, POINTS, [] if options.log else np.linspace(0, last, POINTS))
     with terminal.busy("counting cycles") as tell:
         histories = [solve(scene, cycles, rtol=1e-6, progress=tell) for scene in runs.values()]
-    wear, *others = panels_of(histories, tuple(runs), abscissa)
-    summary = _summary(histories[0].scene, cycles, options.output) | {"scenes": list(runs)}
+    summary = {
+        "scene": histories[0].scene,
+        "file": str(options.output),
+        "cycles": [cycles[0], cycles[-1]],
+        "scenes": list(runs),
+    }
     lines: list[str] = []
     found = [[*run_output.notices_of(each)] for each in histories]
     if limit is not None:
@@ -119,47 +148,11 @@ def _against_cycles(options: Options, last: int) -> Answer:
         for text in dict.fromkeys(texts)
     ]
     arguments.strict_faults(notices, options).stop_if_any()
-    readings = [each.first(int(np.sum(each.cycles <= last))) for each in options.readings]
-    points = points_of([each for each in readings if len(each.cycles)], runs, abscissa)
-    shown = replace(wear, points=points, limit=limit)
-    drawn = history([shown, *others], abscissa=abscissa, logarithmic=options.log)
-    _write(drawn, options.output)
+    abscissa = Abscissa[options.axis.upper()]
+    wear, *others = panels_of(histories, tuple(runs), abscissa)
+    drawn_readings = [each.first(int(np.sum(each.cycles <= last))) for each in readings]
+    points = points_of([each for each in drawn_readings if len(each.cycles)], runs, abscissa)
+    panels = [replace(wear, points=points, limit=limit), *others]
+    drawn = history(panels, abscissa=abscissa, logarithmic=options.log)
+    files.write_atomically(options.output, encoded(drawn, options.output.suffix))
     return Answer(summary, lambda: "\n".join(lines), tuple(notices))
-
-
-def _write(drawn: object, output: Path) -> None:
-    from wear.figure_style import encoded
-
-    files.write_atomically(output, encoded(drawn, output.suffix))  # type: ignore[arg-type]
-
-
-def _check_inside(options: Options, faults: Faults) -> None:
-    from wear.load import Blocks
-    from wear.request import obstacle
-
-    inside, scenes = options.inside, options.scene
-    others = ("cycles", "until-wear", "data", "log")
-    given = [f"--{name}" for name in others if getattr(options, name.replace("-", "_"))]
-    if options.axis != ABSCISSAE[0]:
-        given.append("--axis")
-    if given:
-        faults.append(f"--inside: does not go with {', '.join(given)}; leave one or the other out")
-    if len(inside) > MOST_AT_ONCE:
-        faults.append(f"--inside: {len(inside)} cycles in one figure; name up to {MOST_AT_ONCE}")
-    for scene in scenes:
-        against = "the load does not repeat" if isinstance(scene.load, Blocks) else obstacle(scene)
-        if against is not None:
-            faults.append(f"--inside: {against}; leave --inside out")
-
-
-def _pressure_inside(scene: Scene, inside: Sequence[int], output: Path) -> Answer:
-    from wear.figure_data import pressure_inside
-    from wear.figures import pressure_in_cycles
-
-    _write(pressure_in_cycles(pressure_inside(scene, inside)), output)
-    summary = _summary(scene.title or scene.name, sorted(inside), output)
-    return Answer(summary, notices=scene.notices)
-
-
-def _summary(scene: str, cycles: Sequence[int], output: Path) -> dict[str, object]:
-    return {"scene": scene, "file": str(output), "cycles": [cycles[0], cycles[-1]]}

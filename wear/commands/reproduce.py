@@ -10,8 +10,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from derive import files, terminal
 from derive.command_line import Answer, Options, Parser
@@ -32,12 +31,13 @@ def add_arguments(parser: Parser) -> None:
 def execute(options: Options) -> Answer:
     """Derive, verify, solve, decide the claims, and write the report."""
     arguments.read(options).stop_if_any()
-    folder = options.output
-    start = time.monotonic()
+    folder, start = options.output, time.monotonic()
+    command = f"wear reproduce -o {folder.name}"
     with terminal.busy("deriving the equations") as progress:
-        contents, verification, ledger, typeset = _reproduce(folder, progress)
+        contents, verification, ledger, typeset = _reproduce(command, progress)
         files.write_all(folder, contents)
     failures = [f"({i}) {check.kind}: {check.detail}" for i, check in verification.failures]
+    verdicts = dict(Counter(str(entry.finding.verdict) for entry in ledger))
     summary = {
         "folder": str(folder),
         "files": sorted(contents),
@@ -45,19 +45,27 @@ def execute(options: Options) -> Answer:
         "steps": verification.steps,
         "checks": verification.checks,
         "failures": failures,
-        "verdicts": dict(Counter(str(entry.finding.verdict) for entry in ledger)),
+        "verdicts": verdicts,
         "notice": typeset.notice,
         "seconds": time.monotonic() - start,
     }
+    outcome = f"{len(failures)} FAILED" if failures else "all passed"
+    lines = (
+        f"{verification.equations} equations, {verification.steps} steps, "
+        f"{verification.checks} checks: {outcome}",
+        f"claims: {', '.join(f'{number} {verdict}' for verdict, number in verdicts.items())}",
+        f"report: {folder / 'report.html'}",
+    )
     status = terminal.DONE if verification.passed else terminal.FAILED
     notices = (*typeset.notices, *(failure.replace(":", " fails:", 1) for failure in failures))
-    return Answer(summary, lambda: "\n".join(_lines(summary)), notices, status)
+    return Answer(summary, lambda: "\n".join(lines), notices, status)
 
 
 def _reproduce(
-    folder: Path, progress: Callable[[str], None]
+    command: str, progress: Callable[[str], None]
 ) -> tuple[dict[str, str | bytes], Verification, tuple[Entry, ...], PdfOutcome]:
-    """Return the files by name, the checks, the ledger, and the outcome of the PDF."""
+    """Return the files by name, the checks, the ledger, and the outcome of the PDF; the
+    manifest has the command."""
     from derive.catalogue import all_equations
     from derive.note.claim_checks import SYMBOLIC
     from derive.note.claims import CLAIMS
@@ -84,18 +92,6 @@ def _reproduce(
         progress("writing")
         contents, typeset = published(paper(catalogue, verification, runs, entries, figures))
         contents["claims.json"] = terminal.json_text(as_json(entries))
-        command = f"wear reproduce -o {folder.name}"
         scenes = {name: history.definition for name, history in runs.histories.items()}
         contents["manifest.json"] = terminal.json_text(manifest(contents, scenes, command))
     return contents, verification, entries, typeset
-
-
-def _lines(summary: dict[str, Any]) -> list[str]:
-    verdicts = ", ".join(f"{number} {verdict}" for verdict, number in summary["verdicts"].items())
-    failed = len(summary["failures"])
-    return [
-        f"{summary['equations']} equations, {summary['steps']} steps, {summary['checks']} checks: "
-        f"{f'{failed} FAILED' if failed else 'all passed'}",
-        f"claims: {verdicts}",
-        f"report: {Path(summary['folder'], 'report.html')}",
-    ]

@@ -14,15 +14,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from derive import terminal
+from derive import files, terminal
 from derive.command_line import Answer, Options, Parser, declare
 from wear.commands import arguments, run_output
 from wear.faults import Faults
 
 if TYPE_CHECKING:
-    from wear.life import Life
     from wear.scene import Scene
 
 _OF_PHASES = (".csv", ".nc")
@@ -50,7 +49,7 @@ def add_arguments(parser: Parser) -> None:
     )
     declare(parser, "--phases M", about, type=arguments.whole(1, 10**6))
     about = "write the states to a .csv, .nc or .tex file"
-    declare(parser, "-o, --output FILE", about, type=arguments.file(*run_output.SUFFIXES))
+    declare(parser, "-o, --output FILE", about, type=arguments.file(".csv", ".nc", ".tex"))
 
 
 def execute(options: Options) -> Answer:
@@ -80,40 +79,31 @@ def execute(options: Options) -> Answer:
         if miss.best is None:
             raise
         history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
-    until, notices = dict[str, Any](), [*run_output.notices_of(history), *faulty]
+    document, notices = history.as_json(), [*run_output.notices_of(history), *faulty]
+    parts = [run_output.text(history)] if output is None else []
     if wears is not None:
         with terminal.busy("counting cycles to the wear"):
             life = cycles_until(scene, wears, rtol)
-        more = [text for text in life.notices if text not in history.notices]
-        until = _cycles_until(life) | {"notices": [*history.notices, *more]}
-        notices += more
-    arguments.strict_faults(notices, options).stop_if_any()
-    if output is not None:
-        run_output.write(history, output)
-
-    def text() -> str:
-        parts = [] if output is not None else [run_output.text(history)]
-        if until:
-            parts.append(f"\n{run_output.until_text(until)}")
-        return "\n".join(parts)
-
-    return Answer(history.as_json() | until, text, notices, status)
-
-
-def _depths(text: str) -> tuple[float, ...]:
-    return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
-
-
-def _cycles_until(life: Life) -> dict[str, Any]:
-    """Return the part of the JSON with the cycles to depths of wear, null where unknown."""
-    return {
-        "cycles_until": {
+        document["cycles_until"] = {
             "bearing_wear_mm": list(life.wear_mm),
             "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in life.cycles],
             "error_estimate": life.error,
             "reached": [way.value for way in life.reached],
         }
-    }
+        more = [text for text in life.notices if text not in history.notices]
+        document["notices"] = [*history.notices, *more]
+        notices += more
+        parts.append(f"\n{run_output.until_text(life)}")
+    arguments.strict_faults(notices, options).stop_if_any()
+    if output is not None and output.suffix == ".tex":
+        files.write_atomically(output, run_output.latex(history))
+    elif output is not None:
+        history.write(output)
+    return Answer(document, lambda: "\n".join(parts), notices, status)
+
+
+def _depths(text: str) -> tuple[float, ...]:
+    return tuple(map(arguments.number(0.0, 1e300), text.split(",")))
 
 
 def _methods() -> Sequence[str]:
@@ -139,7 +129,7 @@ def _check_inside(options: Options, faults: Faults) -> None:
     against, most = obstacle(options.scene), most_cycles(options.scene.load)
     if against is not None:
         faults.append(f"--phases: cycles cannot be counted: {against}; leave --phases out")
-    elif max(options.cycles, default=0) >= most:
+    elif max(options.cycles or (), default=0) >= most:
         faults.append(
             f"--cycles: the last cycle with phases begins after {most - 1}; the load ends"
         )

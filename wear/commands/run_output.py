@@ -1,49 +1,42 @@
-"""Output of `wear run`: text, LaTeX, and files of a history."""
+"""Output of `wear run` as text and as LaTeX."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from derive import files, terminal
-from wear.quantities import COLUMNS, unit_of, words_of
+from derive import terminal
+from wear.quantities import COLUMNS, label_of, unit_of
 
 if TYPE_CHECKING:
     from wear.history import History
+    from wear.life import Life
     from wear.numerics.gauss import FloatArray
-
-SUFFIXES = (".csv", ".nc", ".tex")
 
 
 def text(history: History) -> str:
     """Return a table for the terminal, with the cost of the run."""
     quantities = _modelled(history)
-    header = ["cycle", *map(_heading, quantities), "relative\nerror"]
+    heads = [label_of(name).replace(" ", "\n") for name in quantities]
     rows = [
-        [
-            str(cycle),
-            *(_shown(float(values[row])) for values in quantities.values()),
-            f"{history.error[row]:.1e}",
-        ]
-        for row, cycle in enumerate(history.cycles.tolist())
+        [str(n), *("-" if math.isnan(x) else f"{x:.10g}" for x in state), f"{error:.1e}"]
+        for n, *state, error in zip(
+            history.cycles, *quantities.values(), history.error, strict=True
+        )
     ]
     return "\n".join(
         [
             history.scene,
             f"model {history.variant}, method {history.method}, rtol {history.rtol:g}",
             "",
-            terminal.table(header, rows) if rows else "No requested cycle was reached.",
+            terminal.table(["cycle", *heads, "relative\nerror"], rows)
+            if rows
+            else "No requested cycle was reached.",
             "",
             f"{history.cost['cycles_integrated']} cycles integrated, "
             f"{history.cost['rhs_evaluations']} evaluations of the rate, {history.seconds:.3g} s",
         ]
     )
-
-
-def _shown(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.10g}"
 
 
 def notices_of(history: History) -> tuple[str, ...]:
@@ -52,15 +45,11 @@ def notices_of(history: History) -> tuple[str, ...]:
     return tuple(notice for notice in history.notices if notice != usual)
 
 
-def until_text(until: Mapping[str, Any]) -> str:
+def until_text(life: Life) -> str:
     """Return a table of the cycles to depths of wear."""
-    columns = until["cycles_until"]
     rows = [
-        [f"{wear:.10g}", life_text(*life)]
-        for wear, *life in zip(
-            *(columns[name] for name in ("bearing_wear_mm", "cycles", "error_estimate", "reached")),
-            strict=True,
-        )
+        [f"{wear:.10g}", life_text(cycles, error, reached.value)]
+        for wear, cycles, error, reached in zip(*life[:4], strict=True)
     ]
     return terminal.table(["bearing\nwear\n(mm)", "reached\nafter\ncycle"], rows)
 
@@ -113,14 +102,6 @@ def _number(value: float, digits: int) -> str:
     return TextNumber(value, "run", significant(value, digits)).latex
 
 
-def write(history: History, path: Path) -> None:
-    """Write a file with one of the `SUFFIXES`, completely or not at all."""
-    if path.suffix == ".tex":
-        files.write_atomically(path, latex(history))
-    else:
-        history.write(path)
-
-
 def _modelled(history: History) -> dict[str, FloatArray]:
     """Return the informative physical columns: without contact fractions that are always 1, and
     without columns of unknown values."""
@@ -133,8 +114,3 @@ def _modelled(history: History) -> dict[str, FloatArray]:
         and not np.isnan(values).all()
         and (name != "contact_fraction" or np.any(values < 1.0))
     }
-
-
-def _heading(name: str) -> str:
-    unit = unit_of(name)
-    return "\n".join([*words_of(name).split(), *([f"({unit})"] if unit else [])])

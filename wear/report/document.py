@@ -25,15 +25,12 @@ if TYPE_CHECKING:
 OWN_EQUATION = "D.{}"
 """Number of an equation that the note does not have."""
 _NOTE = re.compile(r"\d+[a-g]?")
-_KINDS = {
-    "eq": "equation", "sec": "section", "app": "appendix", "fig": "figure", "tab": "table",
-    "claim": "claim", "der": "derivation", "ref": "work",
-}  # fmt: skip
 _NAMES = {
-    "equation": "Eq.\u00a0({})", "section": "Section\u00a0{}", "appendix": "Appendix\u00a0{}",
-    "figure": "Figure\u00a0{}", "table": "Table\u00a0{}", "claim": "claim\u00a0{}",
-    "derivation": "derivation of\u00a0({})", "work": "[{}]",
+    "eq": "Eq.\u00a0({})", "sec": "Section\u00a0{}", "app": "Appendix\u00a0{}",
+    "fig": "Figure\u00a0{}", "tab": "Table\u00a0{}", "claim": "claim\u00a0{}",
+    "der": "derivation of\u00a0({})", "ref": "[{}]",
 }  # fmt: skip
+"""The words of a reference, by the kind of its label."""
 
 
 @dataclass(frozen=True)
@@ -72,26 +69,27 @@ def drawn(drawings: Mapping[str, Figure]) -> Mapping[str, FigureFiles]:
     }
 
 
-@dataclass(frozen=True)
-class Mark:
-    """The kind and number of a label in the text, and the label that its link leads to."""
+class Mark(NamedTuple):
+    """The number of a label in the text, and the label that its link leads to."""
 
-    kind: str
     number: str
     target: str
 
     @property
+    def kind(self) -> str:
+        """Return the kind of the label: eq, sec, app, fig, tab, claim, der or ref."""
+        return self.target.partition(":")[0]
+
+    @property
     def bare(self) -> str:
         """Return the number alone, for a list of references."""
-        if self.kind == "equation":
-            return f"({self.number})"
-        return self.name if self.kind == "work" else self.number
+        return {"eq": f"({self.number})", "ref": self.name}.get(self.kind, self.number)
 
     @property
     def name(self) -> str:
         """Return the words of a reference, with no-break spaces.
 
-        >>> Mark("equation", "8", "eq:8").name.replace(chr(0xa0), " ")
+        >>> Mark("8", "eq:8").name.replace(chr(0xa0), " ")
         'Eq. (8)'
         """
         return _NAMES[self.kind].format(self.number)
@@ -115,7 +113,7 @@ class Document:
         """Yield the mark, title and level of every section except derivations."""
         for heading, title in pairwise(self.tokens):
             mark = self.marks.get(heading.meta.get("label", ""))
-            if heading.type == "heading_open" and mark and mark.kind != "derivation":
+            if heading.type == "heading_open" and mark and mark.kind != "der":
                 yield mark, title.children or [], int(heading.tag[1])
 
     @property
@@ -135,17 +133,17 @@ class Document:
             with all faults at once: labels used twice, equations shown twice, references to
             unknown labels.
         """
-        given = list(self._marks())
-        marks = {mark.target: mark for mark in given}
-        for mark in given:
-            if mark.kind == "derivation":
-                derived = marks[f"eq:{mark.number}"]
-                marks[mark.target] = Mark(mark.kind, derived.number, mark.target)
+        given = list(self._numbered())
+        marks = {label: Mark(number, label) for label, number in given}
         for equation in self.shown:
+            shown = f"eq:{equation.id}"
             for other in equation.also:
-                label = f"eq:{other}"
-                marks[label] = Mark("equation", _own(other, marks, equation), f"eq:{equation.id}")
-        twice = [label for label, n in Counter(mark.target for mark in given).items() if n > 1]
+                number = other if _NOTE.fullmatch(other) else marks[shown].number
+                marks[f"eq:{other}"] = Mark(number, shown)
+        for label, identifier in given:
+            if label.startswith("der:"):
+                marks[label] = Mark(marks[f"eq:{identifier}"].number, label)
+        twice = [label for label, n in Counter(label for label, _ in given).items() if n > 1]
         faults = [f"{label!r} is used more than once" for label in twice]
         faults += [
             f"no {label!r} to refer to" for label in self._references() if label not in marks
@@ -164,9 +162,23 @@ class Document:
     def mentions(self) -> Mapping[str, tuple[str, ...]]:
         """Return for every equation its derivation and the claims that refer to it."""
         sources: dict[str, dict[str, None]] = {}
-        for where, label in self._places():
-            if where and label.startswith("eq:") and label in self.marks:
+
+        def mention(label: str, where: str) -> None:
+            if label.startswith("eq:") and label in self.marks:
                 sources.setdefault(self.marks[label].target, {})[where] = None
+
+        claim = ""
+        for token in self.tokens:
+            label = str(token.meta.get("label", ""))
+            if token.type == "heading_open" and label.startswith("der:"):
+                mention(f"eq:{label[4:]}", label)
+            if token.type in ("heading_open", "tr_close", "table_close"):
+                claim = ""
+            for piece in token.children or ():
+                if piece.type == "target" and piece.content.startswith("claim:"):
+                    claim = piece.content
+                if piece.type == "reference" and claim:
+                    mention(piece.content, claim)
         return {label: tuple(labels) for label, labels in sources.items()}
 
     def _references(self) -> Iterator[str]:
@@ -174,66 +186,36 @@ class Document:
             if token.type == "reference":
                 yield token.content
 
-    def _places(self) -> Iterator[tuple[str, str]]:
-        """Yield the derivation or claim around each reference, and the label of the reference."""
-        where = ""
-        for token in self.tokens:
-            if token.type in ("heading_open", "tr_close", "table_close"):
-                where = str(token.meta.get("label", ""))
-                where = where if where.startswith("der:") else ""
-                if where:
-                    yield where, f"eq:{where[4:]}"
-            for piece in token.children or ():
-                if piece.type == "target" and piece.content.startswith("claim:"):
-                    where = piece.content
-                if piece.type == "reference" and where.startswith("claim:"):
-                    yield where, piece.content
-
-    def _marks(self) -> Iterator[Mark]:
+    def _numbered(self) -> Iterator[tuple[str, str]]:
+        """Yield every label with its number; for a derivation, the id of its equation."""
         counts: Counter[str] = Counter()
+
+        def following(kind: str) -> str:
+            counts[kind] += 1
+            return str(counts[kind])
+
         for token in self.tokens:
-            if token.type == "heading_open" and "label" in token.meta:
-                yield _heading(token, counts)
-            elif token.type == "caption_open" and "label" in token.meta:
-                yield _next("table", token.meta["label"], counts)
+            label = str(token.meta.get("label", ""))
+            kind, _, identifier = label.partition(":")
+            if token.type == "heading_open" and kind == "der":
+                yield label, identifier
+            elif token.type == "heading_open" and label:
+                is_part = token.tag != "h2"
+                counts[kind] += not is_part
+                counts["part"] = counts["part"] + 1 if is_part else 0
+                whole = str(counts[kind]) if kind == "sec" else chr(ord("A") + counts[kind] - 1)
+                yield label, whole + f".{counts['part']}" * is_part
+            elif token.type == "caption_open" and label:
+                yield label, following("tab")
             elif token.type == "fence" and token.info == "equations":
-                for identifier in token.content.split():
-                    number = identifier if _NOTE.fullmatch(identifier) else ""
-                    yield _next("equation", f"eq:{identifier}", counts, number)
+                for name in token.content.split():
+                    own = "" if _NOTE.fullmatch(name) else OWN_EQUATION.format(following("eq"))
+                    yield f"eq:{name}", own or name
             for piece in token.children or ():
                 if piece.type == "image":
-                    yield _next("figure", str(piece.attrs["src"]), counts)
+                    yield str(piece.attrs["src"]), following("fig")
                 elif piece.type == "target":
-                    kind, _, number = piece.content.partition(":")
-                    yield Mark(_KINDS[kind], number, piece.content)
+                    yield piece.content, piece.content.partition(":")[2]
         for place, key in enumerate(self.works, start=1):
             if key in REFERENCES:
-                yield Mark("work", str(place), f"ref:{key}")
-
-
-def _own(identifier: str, marks: Mapping[str, Mark], same: DisplayedEquation) -> str:
-    """Return the number of an equation that is identical to one that is shown."""
-    return identifier if _NOTE.fullmatch(identifier) else marks[f"eq:{same.id}"].number
-
-
-def _next(kind: str, label: str, counts: Counter[str], number: str = "") -> Mark:
-    if not number:
-        counts[kind] += 1
-        number = str(counts[kind])
-        number = OWN_EQUATION.format(number) if kind == "equation" else number
-    return Mark(kind, number, label)
-
-
-def _heading(token: Token, counts: Counter[str]) -> Mark:
-    """Return the mark of a heading: 1, 1.1, A, A.1, or that of the equation derived below it."""
-    label = str(token.meta["label"])
-    kind = _KINDS[label.partition(":")[0]]
-    if kind == "derivation":
-        return Mark(kind, label[4:], label)
-    if token.tag == "h2":
-        counts[kind] += 1
-        counts["part"] = 0
-    else:
-        counts["part"] += 1
-    numeral = str(counts[kind]) if kind == "section" else chr(ord("A") + counts[kind] - 1)
-    return Mark(kind, numeral + f".{counts['part']}" * (token.tag != "h2"), label)
+                yield f"ref:{key}", str(place)

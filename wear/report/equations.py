@@ -79,7 +79,8 @@ def _title(equation: derived.Equation) -> str:
     """
     words = [c for c in equation.conditions if c.is_setting]
     conditions = [Hypothesis(abbreviated(c.relation, equation.where)) for c in equation.conditions]
-    formulas = [f"${part}$" for c in conditions if _short(c) for part in _parts(c)]
+    short = [c.latex for c in conditions if _short(c)]
+    formulas = [f"${part}$" for latex in short for part in latex.split(r", \quad ")]
     texts = [markup(c.text) for c in conditions if c not in words and not _short(c)]
     settings = dict.fromkeys(c.text for c in words)
     repeated = {_ALONE, *settings, *(formula.replace(" ", "") for formula in formulas)}
@@ -99,7 +100,3 @@ def _short(hypothesis: Hypothesis) -> bool:
     """Return whether a hypothesis is shown as a formula: it is short, or has no words."""
     formula = not hypothesis.words or width(hypothesis.latex) < _SHORT
     return formula and not hypothesis.is_setting
-
-
-def _parts(hypothesis: Hypothesis) -> list[str]:
-    return hypothesis.latex.split(r", \quad ")

@@ -8,7 +8,7 @@ Key results
     page            the file of the page
     for_plots       a scene with no more rows of its load than plots need
     scene_data      a scene in the numbers of the sliders
-    check_data      wear and wear rates of a scene, computed in Python
+    checked         wear and wear rates of scenes, computed in Python
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import numpy as np
 
 from wear import own_laws
 from wear.binding import bind
-from wear.faults import AccuracyError, UsageError
+from wear.faults import AccuracyError
 from wear.fitting.readings import Specimen
 from wear.load import Constant, Harmonics, Load, Sine, Table
 from wear.load.conversion import as_table
@@ -76,12 +76,18 @@ def page(scene: Scene, specimens: Sequence[Specimen] = ()) -> str:
     derived = json.loads(asset("explorer.derived.json"))
     data = _data(scene, derived, specimens)
     by_name = {row["name"]: row for row in data["parameters"]}
+    scripts, laws, equations = [derived["models"]], derived["laws"], derived["equations"]
+    if own_laws.is_own(law := scene.contact.law):
+        from wear.report.explorer_derived import of_own_law
+
+        script, own = of_own_law(law)
+        scripts, laws, equations = [*scripts, script], [*laws, law], f"{equations}\n{own}"
     return TEMPLATES.get_template("explorer.html").render(
         style=f"{style()}\n{asset('explorer.css')}",
-        scripts=[derived["models"], *map(asset, SCRIPTS)],
+        scripts=[*scripts, *map(asset, SCRIPTS)],
         groups={g: [by_name[name] for name in names] for g, names in GROUPS.items()},
-        laws=derived["laws"],
-        equations=derived["equations"],
+        laws=laws,
+        equations=equations,
         data=json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"),
     )
 
@@ -92,8 +98,9 @@ def _data(
     scenes = {name: load_scene(name) for name in builtin_names()}
     first = for_plots(first)
     if first.name not in scenes or scenes[first.name] != first:
-        name = f"{first.name} (changed)" if first.name in scenes else first.name
-        first = replace(first, name=name)
+        if first.name in scenes:
+            title = f"{first.title or first.name} (changed)"
+            first = replace(first, name=f"{first.name} (changed)", title=title)
         scenes = {first.name: first} | scenes
     shown = [scene_data(scene) for scene in scenes.values()]
     next(each for each in shown if each["name"] == first.name)["readings"] = [
@@ -114,15 +121,7 @@ def _data(
 
 
 def for_plots(scene: Scene) -> Scene:
-    """Return a scene whose load has as few rows as a plot needs, with a note in its description.
-
-    Raises
-    ------
-    UsageError
-        if the contact law is the scene's own.
-    """
-    if own_laws.is_own(scene.contact.law):
-        raise UsageError("the explorer has the contact laws of the package alone")
+    """Return a scene whose load has as few rows as a plot needs, with a note in its description."""
     fewer = resampled(scene, PLOT_RTOL)
     peaks = "The peak of the pressure is that of the merged rows." if fewer.error else ""
     described = " ".join([scene.description, *(f"{text}." for text in fewer.notices), peaks])
@@ -132,8 +131,9 @@ def for_plots(scene: Scene) -> Scene:
 def scene_data(scene: Scene) -> dict[str, Any]:
     """Return a scene for the page; parameters that it does not model are those of section 3."""
     other = load_scene("section3").parameters() | {"k": 1e5}
-    numbers = other | scene.parameters() | {"U": _size(scene.periodic_load)}
-    key = scene.variant
+    key, load = scene.variant, scene.periodic_load
+    size = load.amplitude_mm if isinstance(load, Sine) else 1.0  # the slider multiplies any other
+    numbers = other | scene.parameters() | {"U": size}
     return {
         "name": scene.name,
         "title": scene.title or scene.name,
@@ -144,14 +144,9 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "opening": scene.contact.pin_wear_opens_gap,
         "cutoff": key.ends_at_3_sigma,
         "parameters": {name: numbers[name] for group in GROUPS.values() for name in group},
-        "load": _load_data(scene.periodic_load)
+        "load": _load_data(load)
         | ({"area": {name: numbers[name] for name in AREA}} if scene.given_load else {}),
     }
-
-
-def _size(load: Load) -> float:
-    """Return the amplitude of a sine, or 1: the slider multiplies any other load."""
-    return load.amplitude_mm if isinstance(load, Sine) else 1.0
 
 
 def _load_data(load: Load) -> dict[str, Any]:
@@ -170,34 +165,30 @@ def _load_data(load: Load) -> dict[str, Any]:
     }
 
 
-def check_data(scene: Scene, cycles: Sequence[int] = CYCLES) -> dict[str, Any]:
-    """Return wear after cycles, and wear rates along the way, as Python computes them."""
-    history = solve(scene, cycles, rtol=1e-10)
-    model = bind(scene)
-    phases = np.linspace(0.0, 1.0, 7)
-    depths = np.concatenate([[0.0], history.u_c])
-    rates = []
-    for depth in depths:
-        loads = scene.periodic_load(phases)
-        rate = model.rate(np.full_like(loads, depth), loads)
-        if model.ends_at_3_sigma and not model.compliant:
-            rate = np.where(model.margin(depth, loads) >= 0.0, rate, 0.0)
-        rates += [[float(depth), float(a), float(b)] for a, b in zip(loads, rate, strict=True)]
-    return {
-        "scene": scene.name,
-        "cycles": list(cycles),
-        "wear_mm": history.u_c.tolist(),
-        "rates": rates,
-    }
-
-
 def checked(scenes: Iterable[Scene]) -> list[dict[str, Any]]:
-    """Return the check data of the scenes whose wear Python computes to the requested accuracy."""
-    checks = []
+    """Return for each scene its wear after cycles, and wear rates along the way, as Python computes
+    them; scenes of which it cannot reach the requested accuracy are left out."""
+    checks, phases = [], np.linspace(0.0, 1.0, 7)
     for scene in scenes:
+        model, loads = bind(scene), scene.periodic_load(phases)
+        jumps = model.ends_at_3_sigma and not model.compliant
+        cycles = CYCLES[:3] if jumps else CYCLES
         try:
-            interrupted = scene.contact.ends_at_3_sigma and scene.support is None
-            checks.append(check_data(scene, CYCLES[:3] if interrupted else CYCLES))
+            history = solve(scene, cycles, rtol=1e-10)
         except AccuracyError:
             continue
+        rates = []
+        for depth in (0.0, *history.u_c.tolist()):
+            rate = model.rate(np.full_like(loads, depth), loads)
+            if jumps:
+                rate = np.where(model.margin(depth, loads) >= 0.0, rate, 0.0)
+            rates += [[depth, float(a), float(b)] for a, b in zip(loads, rate, strict=True)]
+        checks.append(
+            {
+                "scene": scene.name,
+                "cycles": list(cycles),
+                "wear_mm": history.u_c.tolist(),
+                "rates": rates,
+            }
+        )
     return checks

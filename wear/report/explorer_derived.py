@@ -6,6 +6,7 @@ it.
 
 Key results
     derived           the content of the file
+    of_own_law        the same for a contact law that a scene gives by a formula
     models            the generated functions of every variant, as JavaScript
     parameter_rows    the parameters of the sliders, from the vocabulary
     rows              the equations as HTML, each with the choices for which it holds
@@ -15,16 +16,22 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from html import escape
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from derive.laws import LAWS, TANH
+from derive.laws import LAWS, TANH, ContactLaw
 from derive.typeset import mathml
+from wear.own_laws import PREFIX
 from wear.report.equations import capital
 from wear.report.explorer import GROUPS, IN_MICROMETRES, MICROMETRES
+
+if TYPE_CHECKING:
+    from derive.codegen.formulas import Formula
+    from derive.variant import Variant
 
 FILE = "explorer.derived.json"
 
@@ -83,12 +90,17 @@ _LONG_RUN = (
 )
 
 
-def rows() -> str:
-    """Return all equations, in the order of the argument."""
+def rows(laws: Mapping[str, ContactLaw]) -> str:
+    """Return the equations that hold for contact laws, in the order of the argument."""
     from derive.catalogue import equation
 
-    texts = [_html(*row) for row in _model()]
+    texts = [_html(*row) for row in _model(laws)]
+    others = tuple(name for name in laws if name != TANH.name)
     for title, identifier, holds in _LONG_RUN:
+        if holds.get("law") == _OTHERS:
+            holds = holds | {"law": others}
+        elif TANH.name not in laws:
+            continue  # it does not hold for these laws, or stands among the equations for all
         number = f"({identifier})" if identifier[0].isdigit() else ""
         texts.append(_html(title, equation(identifier).latex, holds, number))
     return "\n".join(texts)
@@ -108,15 +120,15 @@ def holding(chosen: Mapping[str, str | bool]) -> tuple[str, ...]:
     )
 
 
-def _model() -> Iterator[tuple[str, str, Choices]]:
+def _model(laws: Mapping[str, ContactLaw]) -> Iterator[tuple[str, str, Choices]]:
     """Yield the equations of all variants: title, LaTeX, and the choices for which each holds."""
-    from derive.variant import VARIANTS
     from derive.variant_equations import equations_of
 
     entries: dict[str, dict[tuple[str, str], list[Mapping[str, str | bool]]]] = {}
-    for variant, opening in product(reversed(VARIANTS), (False, True)):
+    variants = reversed([(law, variant) for law in laws for variant in _variants(laws[law])])
+    for (law, variant), opening in product(variants, (False, True)):
         chosen = {
-            "law": variant.law.name, "pin": variant.pin.value, "compliant": variant.compliant,
+            "law": law, "pin": variant.pin.value, "compliant": variant.compliant,
             "cutoff": variant.ends_at_3_sigma, "opening": opening,
         }  # fmt: skip
         for each in equations_of(variant, opening=opening):
@@ -124,6 +136,12 @@ def _model() -> Iterator[tuple[str, str, Choices]]:
     for (title, latex), choices in (row for forms in entries.values() for row in forms.items()):
         holds = {n: tuple(dict.fromkeys(each[n] for each in choices)) for n in choices[0]}
         yield capital(title), latex, holds
+
+
+def _variants(law: ContactLaw) -> list[Variant]:
+    from derive.variant import VARIANTS
+
+    return [replace(variant, law=law) for variant in VARIANTS if variant.law is TANH]
 
 
 def _html(title: str, latex: str, holds: Choices, number: str = "") -> str:
@@ -138,36 +156,57 @@ def derived() -> str:
     """Return the file: models, equations, rows of the sliders, contact laws."""
     content = {
         "models": models(),
-        "equations": rows(),
+        "equations": rows(LAWS),
         "parameters": parameter_rows(),
         "laws": list(LAWS),
-        "cutoff": int(LAWS["tanh"].cutoff),
+        "cutoff": int(TANH.cutoff),
     }
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def of_own_law(name: str) -> tuple[str, str]:
+    """Return the script and the equations of a contact law that a scene gives by a formula."""
+    from derive.codegen import contact_law
+    from derive.own_law import NAME, own_law
+
+    law, _ = own_law(name.removeprefix(PREFIX))
+    script = f"Object.assign(MODELS, {{\n{_functions(name, law)}}});\n"
+    script += f"Object.assign(FORMULAS, {_scope(contact_law.formulas(law))});\n"
+    for kind in ("share", "steepness"):
+        script += f"FORMULAS[{json.dumps(f'{kind}_{name}')}] = FORMULAS.{kind}_{NAME};\n"
+    return script, rows({name: law})
 
 
 def models() -> str:
     """Return a script with the generated functions of every variant and the formulas."""
     from derive.codegen import reaction
-    from derive.codegen.formulas import formula_script
+    from derive.results.asymptotics import formulas
+
+    carried = [formula for formula in reaction.formulas() if formula.name == "pressure"]
+    functions = "".join(_functions(name, law) for name, law in LAWS.items())
+    return (
+        f'"use strict";\nconst MODELS = {{\n{functions}}};\n'
+        f"const FORMULAS = {_scope(formulas())};\nconst REACTION = {_scope(carried)};\n"
+    )
+
+
+def _functions(name: str, law: ContactLaw) -> str:
+    """Return the functions of the variants of a contact law, as entries of an object."""
     from derive.codegen.sources import definitions
     from derive.program import program
-    from derive.results.asymptotics import formulas
-    from derive.variant import VARIANTS
 
-    entries = (
-        f'"{variant.law.name}/{variant.name}": () => {{\n'
+    return "".join(
+        f'"{name}/{variant.name}": () => {{\n'
         f"{_without_comments(definitions(program(variant)))}}},\n"
-        for variant in VARIANTS
+        for variant in _variants(law)
     )
-    closed = _without_comments(formula_script(tuple(formulas())))
-    carried = (formula for formula in reaction.formulas() if formula.name == "pressure")
-    forces = _without_comments(formula_script(tuple(carried)))
-    return (
-        f'"use strict";\nconst MODELS = {{\n{"".join(entries)}}};\n'
-        f"const FORMULAS = (() => {{\n{closed}}})();\n"
-        f"const REACTION = (() => {{\n{forces}}})();\n"
-    )
+
+
+def _scope(formulas: Iterable[Formula]) -> str:
+    """Return formulas as an expression whose value has a function for each."""
+    from derive.codegen.formulas import formula_script
+
+    return f"(() => {{\n{_without_comments(formula_script(tuple(formulas)))}}})()"
 
 
 def _without_comments(text: str) -> str:

@@ -197,13 +197,8 @@ def _regime(slope: FloatArray, gap: FloatArray, cutoff: bool) -> NDArray[np.str_
         if row.cutoff == cutoff:
             holds = np.ones(slope.shape, dtype=bool)
             for condition in row.conditions:
-                holds &= _holds(condition.relation, values)
+                names = sorted(symbol.name for symbol in condition.relation.free_symbols)
+                relation = sp.lambdify(names, condition.relation, "numpy")
+                holds &= relation(*(values[name] for name in names))
             named[holds] = row.name
     return named
-
-
-def _holds(relation: sp.Basic, values: Mapping[str, object]) -> NDArray[np.bool_]:
-    """Return where a relation between data holds."""
-    symbols = sorted(relation.free_symbols, key=str)
-    holds = sp.lambdify(symbols, relation, "numpy")(*(values[s.name] for s in symbols))
-    return np.asarray(holds, dtype=bool)

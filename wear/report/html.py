@@ -18,14 +18,13 @@ import re
 from functools import partial
 from html import escape
 from importlib.resources import files
-from numbers import Integral
 
 import jinja2
 
 from derive.typeset import mathml
 from wear.cite import listed
 from wear.report.document import Document
-from wear.report.number import TextNumber, grouped
+from wear.report.number import grouped
 from wear.report.writer import Writer
 
 _ASSETS = files("wear.report").joinpath("assets")
@@ -43,8 +42,8 @@ _USE = re.compile(r'((?:xlink:)?href="#|url\(#)([^")]+)')
 _INK = {"#000000": "currentColor", "#ffffff": "var(--paper)"}
 
 
-def _hash(script: str) -> str:
-    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+def _base64(content: bytes) -> str:
+    return base64.b64encode(content).decode()
 
 
 def page(document: Document) -> str:
@@ -72,22 +71,10 @@ def asset(name: str) -> str:
 
 def style() -> str:
     """Return the style sheet of a page, with the font of its formulas."""
-    font = base64.b64encode(_ASSETS.joinpath("stix-two-math.woff2").read_bytes()).decode()
+    font = _base64(_ASSETS.joinpath("stix-two-math.woff2").read_bytes())
     return asset("report.css").replace(
         "url(stix-two-math.woff2)", f"url(data:font/woff2;base64,{font})"
     )
-
-
-def _data(node: TextNumber) -> str:
-    """Return a computed number as an element whose tooltip names its source."""
-    digits, exponent = node.decimal
-    shown = grouped(digits, "\u202f")
-    if exponent is not None:
-        shown += f"\u202f×\u202f10<sup>{exponent}</sup>"
-    unit = f"\u00a0{escape(node.unit, quote=False)}" if node.unit else ""
-    value = int(node.value) if isinstance(node.value, Integral | int) else float(node.value)
-    shown = shown.replace("-", "\u2212")
-    return f'<data value="{value!r}" title="{escape(node.source)}">{shown}{unit}</data>'
 
 
 def drawing(svg: str, label: str, description: str) -> str:
@@ -122,10 +109,10 @@ TEMPLATES.filters |= {
     "e": escape,
     "text": partial(escape, quote=False),
     "words": lambda text: text.replace("-", " "),
-    "hash": _hash,
+    "hash": lambda script: f"sha256-{_base64(hashlib.sha256(script.encode()).digest())}",
     "formula": mathml.inline,
     "display": mathml.block,
     "drawing": drawing,
     "listed": listed,
-    "data": _data,
+    "grouped": partial(grouped, separator="\u202f"),
 }

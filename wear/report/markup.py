@@ -17,18 +17,32 @@ _MARK = re.compile(
     r"|(?:Eqs?\. |(?<![\w)]))\((?P<equation>\d+[a-g]?|[a-z]{3,}(?:-[a-z]+)*)\)"
     r"|\b(?P<claim>C\d+)\b"
 )
-_SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#])")
+_SPECIAL = re.compile(r"([\\`*_\[\]<>$|{}#&])")
+_OPENING = re.compile(r"^((?:\d+|Table)?)([-+=~.):])")
+"""What begins a list, a rule, a listing or a caption in a paragraph of its own."""
 #: The line of a system that its number stands for.
 _MEANT = {"16": "16b", "17": "17b"}
 
 
 def escaped(text: str) -> str:
-    r"""Return plain words as Markdown.
+    r"""Return plain words as Markdown, in one line.
 
     >>> print(escaped("sigma_c0 * 2"))
     sigma\_c0 \* 2
     """
-    return _SPECIAL.sub(r"\\\1", text)
+    return _SPECIAL.sub(r"\\\1", re.sub(r"\s*\n\s*", " ", text))
+
+
+def paragraphs(text: str) -> str:
+    r"""Return plain words, in paragraphs that empty lines separate, as Markdown.
+
+    >>> print(paragraphs("- new\n  pin\n\n1. of C45"))
+    \- new pin
+    <BLANKLINE>
+    1\. of C45
+    """
+    parts = re.split(r"\n\s*\n", text.strip())
+    return "\n\n".join(_OPENING.sub(r"\1\\\2", escaped(part.strip())) for part in parts)
 
 
 def markup(text: str, labels: Container[str] = ()) -> str:

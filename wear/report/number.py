@@ -30,8 +30,6 @@ class TextNumber:
             raise ValueError(
                 f"a number in the text must be finite, got {self.value} ({self.source})"
             )
-        if self.digits < 1:
-            raise ValueError(f"a number needs at least one digit, got {self.digits}")
         if not self.source:
             raise ValueError(f"the number {self.value} has no source")
 
@@ -40,10 +38,15 @@ class TextNumber:
         return replace(self, digits=digits)
 
     @property
+    def plain(self) -> int | float:
+        """Return the value as a number of Python, with all its digits."""
+        return int(self.value) if isinstance(self.value, Integral | int) else float(self.value)
+
+    @property
     def decimal(self) -> tuple[str, int | None]:
         """Return the digits, with a sign if negative, and the power of ten if there is one."""
-        if isinstance(self.value, Integral | int) and abs(self.value) < 10**6:
-            return str(int(self.value)), None
+        if isinstance(self.plain, int) and abs(self.plain) < 10**6:
+            return str(self.plain), None
         if self.value == 0.0:
             return "0", None
         mantissa, _, power = f"{self.value:.{self.digits - 1}e}".partition("e")

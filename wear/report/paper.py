@@ -80,13 +80,25 @@ def paper(
         "drift_distance": _drift_distance(runs),
         "elasticity": _elasticity(equations, runs),
         "resolutions": RESOLUTIONS,
-        "regimes": list(_regimes()),
+        "regimes": [
+            (
+                "with" if regime.cutoff else "without",
+                listed([f"${_hypothesis(c.relation)}$" for c in regime.conditions]),
+                regime.name,
+                listed([f"[(eq:{name})]" for name in regime.equations]),
+            )
+            for regime in REGIMES
+        ],
         "hard": list(_hard(runs)),
         "speed": results,
         "measured": results.committed(),
         "unit": unit,
         "symbols": _MODEL,
-        "further_symbols": _further(equations),
+        "further_symbols": [
+            quantity.name
+            for quantity in occurring(_expressions(equations))
+            if quantity.name not in _MODEL
+        ],
         "versions": versions(),
         "derivations": derivations,
         "origins": {
@@ -112,9 +124,7 @@ def drawings(runs: Runs) -> Mapping[str, FigureFiles]:
             ),
             "approach": figures_of_note.approach(runs.approach),
             "speed": speed_against_cycles(
-                results.curves_by_cycles(
-                    results.committed().runs, results.SHOWN_SCENE, results.DIGITS[0]
-                )
+                results.curves_by_cycles(results.committed().shown, results.DIGITS[0])
             ),
             "figure-2a": figures_of_note.wear_of_both(runs),
             "figure-2b": figures_of_note.roughness_of_both(runs),
@@ -145,14 +155,6 @@ def _elasticity(equations: Sequence[Equation], runs: Runs) -> float:
     return float(formula.subs({symbol: data[symbol.name] for symbol in formula.free_symbols}))
 
 
-def _regimes() -> Iterator[tuple[str, str, str, str]]:
-    """Yield the rows of the map of regimes that the software uses."""
-    for regime in REGIMES:
-        where = listed([f"${_hypothesis(c.relation)}$" for c in regime.conditions])
-        equations = listed([f"[(eq:{name})]" for name in regime.equations])
-        yield "with" if regime.cutoff else "without", where, regime.name, equations
-
-
 def _hypothesis(relation: sp.Basic) -> str:
     """Return a hypothesis of the map, with the gap at the vanishing roughness by its name."""
     gap = sp.Symbol("h_star", real=True)  # of either sign here
@@ -167,12 +169,6 @@ def _hard(runs: Runs) -> Iterator[dict[str, Any]]:
         wear = float(found.u_c[-1])
         error = max(abs(wear / true[name] - 1.0), ROUNDOFF)
         yield {"name": name, "found": found, "wear": wear, "error": error}
-
-
-def _further(equations: Sequence[Equation]) -> list[str]:
-    """Return the symbols that the results add to those of the model."""
-    names = [quantity.name for quantity in occurring(_expressions(equations))]
-    return [name for name in names if name not in _MODEL]
 
 
 def _expressions(equations: Sequence[Equation]) -> Iterator[sp.Basic]:

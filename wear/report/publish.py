@@ -23,15 +23,8 @@ from wear.scene import Scene
 
 #: Packages whose version can change a digit or a page.
 PACKAGES = (
-    "derive-wear",
-    "numpy",
-    "scipy",
-    "sympy",
-    "mpmath",
-    "python-flint",
-    "matplotlib",
-    "math-core",
-)
+    "derive-wear", "numpy", "scipy", "sympy", "mpmath", "python-flint", "matplotlib", "math-core",
+)  # fmt: skip
 
 #: Lines that the log of a good report does not have. Underfull boxes are harmless.
 _WARNING = re.compile(

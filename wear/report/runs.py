@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import NamedTuple
 
 import mpmath
@@ -111,13 +110,13 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     (tight,) = wear_bounds(application, [note.PRINTED.cycles])
     progress("hard scenes")
     return Runs(
-        histories=MappingProxyType(histories),
-        asymptotes=MappingProxyType({name: note.limit(name) for name in histories}),
-        approach=_approach("section4", _DECADES),
+        histories=histories,
+        asymptotes={name: note.limit(name) for name in histories},
+        approach=_approach(_DECADES),
         decay=dict(zip(later, decay.tolist(), strict=True)),
         printed_increment=float(note.increments_after(application, note.PRINTED.cycles)[0]),
         reconciliation=note.reconciliation(),
-        threshold_excess=float(_approach("section4", [round(note.required(predicted))]).excess[0]),
+        threshold_excess=float(_approach([round(note.required(predicted))]).excess[0]),
         phase_distance=_phase_distance(histories["section4"]),
         static_distance=_static_distance(application),
         integrated={name: _integrated(histories[name]) for name in INTEGRATED},
@@ -127,12 +126,13 @@ def run(progress: Callable[[str], None] = lambda _: None) -> Runs:
     )
 
 
-def _approach(name: str, decades: tuple[int, ...] | list[int]) -> Approach:
-    end = note.limit(name)
+def _approach(numbers: Sequence[int]) -> Approach:
+    """Return the approach of section 4 at these numbers of cycles."""
+    scene, end = note.scene("section4"), note.limit("section4")
     per_cycle, drift = note.required(end.wear_per_cycle_mm), note.required(end.log_coefficient_mm)
-    history = solve(note.scene(name), decades, rtol=note.RTOL)
+    history = solve(scene, numbers, rtol=note.RTOL)
     cycles = history.cycles.astype(float)
-    increment = note.increments(note.scene(name), history.u_c)
+    increment = note.increments(scene, history.u_c)
     return Approach(
         cycles=cycles,
         wear=history.u_c,

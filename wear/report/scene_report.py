@@ -19,7 +19,16 @@ from derive.variant import Variant
 from derive.variant_equations import equations_of
 from wear import figures
 from wear.faults import AccuracyError, UsageError
-from wear.figure_data import WEAR, Abscissa, Line, Panel, panels_of, points_of, pressure_inside
+from wear.figure_data import (
+    WEAR,
+    Abscissa,
+    Line,
+    Panel,
+    as_typed,
+    panels_of,
+    points_of,
+    pressure_inside,
+)
 from wear.fitting.readings import Specimen
 from wear.history import History
 from wear.life import cycles_until
@@ -66,7 +75,13 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         "mm": WEAR.scale,
         "kind": _kind(scene),
         "written": number,
-        "notices": _notices(scene, limit, curve),
+        "notices": [
+            markup(text)
+            for text in dict.fromkeys(
+                (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
+            )
+            if not text.startswith("auto: ")
+        ],
         "identifiers": list(equations),
         "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _power_of_ten(cycle)] + [-1],
         "life": list(_life(scene)) if obstacle(scene) is None else [],
@@ -152,11 +167,6 @@ def _kind(scene: Scene) -> str:
     return str(scene.to_tables()["load"]["kind"])
 
 
-def _notices(scene: Scene, limit: Asymptote | None, curve: History) -> list[str]:
-    notices = (*scene.notices, *(limit.notices if limit else ()), *curve.notices)
-    return [markup(text) for text in dict.fromkeys(notices) if not text.startswith("auto: ")]
-
-
 def _life(scene: Scene) -> Iterator[tuple[float, float, str, float]]:
     """Return depths (mm), each with its number of cycles, the way in which that is found, and its
     hours; unknown numbers are NaN."""
@@ -195,7 +205,7 @@ def _readings(scene: Scene, specimens: Sequence[Specimen]) -> tuple[dict[str, An
         predicted = curve.u_c[np.searchsorted(curve.cycles, each.cycles)]
         pairs = zip(each.cycles.astype(int), each.wear_mm, predicted, strict=True)
         rows += [(each.name, *numbers) for numbers in pairs]
-        lines.append(Line(name, curve.cycles.astype(float), curve.u_c, place))
+        lines.append(Line(as_typed(name), curve.cycles.astype(float), curve.u_c, place))
     ratios = np.array([wear / mean for _, _, wear, mean in rows if wear > 0.0] or [1.0])
     ratio, scatter = np.exp(np.mean(np.log(ratios))), np.std(np.log(ratios))
     read = np.concatenate([each.cycles for each in specimens])

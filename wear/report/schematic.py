@@ -119,17 +119,15 @@ def _profile(seed: float, height: float) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def _solids(axes: Axes) -> None:
-    bearing, pin = stroke(0)["color"], stroke(1)["color"]
     x, lower = _profile(0.3, _PIN)
-    axes.fill_between(x, lower, _TOP, color=pin, alpha=0.18, linewidth=0.0)
-    axes.plot(x, lower, color=pin)
-    axes.plot([_LEFT, _LEFT, _RIGHT, _RIGHT], [lower[0], _TOP, _TOP, lower[-1]], color=pin)
-    x, upper = _profile(1.1, _BEARING)
-    axes.fill_between(x, _SPRINGS, upper, color=bearing, alpha=0.18, linewidth=0.0)
-    axes.plot(x, upper, color=bearing)
-    axes.plot(
-        [_LEFT, _LEFT, _RIGHT, _RIGHT], [upper[0], _SPRINGS, _SPRINGS, upper[-1]], color=bearing
-    )
+    _, upper = _profile(1.1, _BEARING)
+    for low, high, surface, end, family in (
+        (lower, _TOP, lower, _TOP, 1), (_SPRINGS, upper, upper, _SPRINGS, 0),
+    ):  # fmt: skip
+        colour, sides = stroke(family)["color"], [_LEFT, _LEFT, _RIGHT, _RIGHT]
+        axes.fill_between(x, low, high, color=colour, alpha=0.18, linewidth=0.0)
+        axes.plot(x, surface, color=colour)
+        axes.plot(sides, [surface[0], end, end, surface[-1]], color=colour)
     for height in (_PIN, _BEARING):
         axes.plot(
             [_LEFT - 0.4, _RIGHT + 0.75], [height, height], color=GREY, lw=0.6, ls=(0, (6, 2, 1, 2))

@@ -11,6 +11,7 @@ Overview
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import partial
 
 import jinja2
@@ -22,19 +23,6 @@ from wear.report.writer import Writer
 
 #: Characters of ``\footnotesize\ttfamily`` in a line of text.
 _LISTING_WIDTH = 96
-_PLAIN = {
-    "paragraph_open": "\n", "paragraph_close": "\n", "em_open": r"\emph{", "em_close": "}",
-    "strong_open": r"\textbf{", "strong_close": "}", "softbreak": "\n", "hardbreak": r"\\",
-    "bullet_list_open": "\\begin{itemize}\n", "bullet_list_close": "\\end{itemize}\n",
-    "ordered_list_open": "\\begin{enumerate}\n", "ordered_list_close": "\\end{enumerate}\n",
-    "list_item_open": r"\item ", "list_item_close": "\n", "thead_open": "",
-    "thead_close": "\\midrule\n", "tbody_open": "", "tbody_close": "", "tr_open": "",
-    "tr_close": " \\\\\n", "th_close": "", "td_close": "", "link_close": "}", "document_close": "",
-    "caption_open": "\n\\begin{table}[htbp]\\centering\\footnotesize\n"
-    "\\tabcolsep4pt\\caption{",
-    "figures_open": "\n\\begin{figure}[htbp]\\centering\n", "figures_close": "\\end{figure}\n",
-    "hr": "\n\\clearpage\n",  # after the tables that still wait for a page
-}  # fmt: skip
 
 _FORMS = str.maketrans({
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
@@ -43,7 +31,12 @@ _FORMS = str.maketrans({
     "\u2009": r"\,", "\u202f": r"\,", "\u2010": "-", "\u2011": r"\mbox{-}",
     "\u2212": r"\ensuremath{-}", "→": r"\ensuremath{\to}", "≤": r"\ensuremath{\le}",
     "≥": r"\ensuremath{\ge}", "≈": r"\ensuremath{\approx}", "∞": r"\ensuremath{\infty}",
+    "λ": r"\ensuremath{\lambda}", "Λ": r"\ensuremath{\Lambda}",
 })  # fmt: skip
+for _letter in "αβγδεζηθικμνξπρστυφχψωΓΔΘΞΠΣΥΦΨΩ":
+    _name = unicodedata.name(_letter).split()[-1]
+    _macro = _name.lower() if _letter.islower() else _name.capitalize()
+    _FORMS[ord(_letter)] = rf"\ensuremath{{\{_macro}}}"
 _TYPED = "\u00a0\u2013\u2014\u2018\u2019\u201c\u201d\u2026·×±°µ²³"
 """Signs that LaTeX sets as they are typed."""
 _LATIN = range(0x00C0, 0x0180)
@@ -55,9 +48,9 @@ def report(document: Document) -> dict[str, str | bytes]:
     Raises
     ------
     ValueError
-        for references that lead nowhere and characters without a LaTeX form.
+        for references that lead nowhere.
     """
-    body = _writer(document).written(document.tokens)
+    body = Writer(document, _TEMPLATES.get_template("blocks.tex")).written(document.tokens)
     title = re.sub(
         r"[^A-Za-z0-9À-ÖØ-öø-ÿ ,.:()\-]", "", document.title
     )  # an entry of the PDF, not typeset
@@ -68,7 +61,7 @@ def report(document: Document) -> dict[str, str | bytes]:
 
 def equations(document: Document) -> str:
     """Return one macro for each equation: the formula alone, to be set in any display."""
-    writer = _writer(document)
+    writer = Writer(document, _TEMPLATES.get_template("blocks.tex"))
     lines = ["% Formulas of the report, one macro each. Needs amsmath and amssymb."]
     for shown in document.shown:
         if not (shown.macro.isascii() and shown.macro.isalpha()):
@@ -79,35 +72,27 @@ def equations(document: Document) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _writer(document: Document) -> Writer:
-    """Return the writer of tokens by ``templates/blocks.tex``."""
-    return Writer(document, _TEMPLATES.get_template("blocks.tex"), _PLAIN)
-
-
 def escape(text: str) -> str:
-    r"""Return the text for LaTeX with utf8 input and T1 fonts.
+    r"""Return the text for LaTeX with utf8 input and T1 fonts; a character without a form by its
+    number.
 
-    >>> print(escape("5 % of p_max – Éric & Söhne"))
-    5 \% of p\_max – Éric \& Söhne
-
-    Raises `ValueError` for a character without a form; formulas belong between dollar signs.
+    >>> print(escape("5 % of p_max – Éric & Söhne, 中"))
+    5 \% of p\_max – Éric \& Söhne, [U+4E2D]
     """
-    for character in text:
-        known = character.isascii() or character in _TYPED or ord(character) in _LATIN
-        if not known and ord(character) not in _FORMS:
-            raise ValueError(
-                f"no LaTeX form for {character!r} (U+{ord(character):04X}) in {text!r}: "
-                "write it as a formula or add it to the table in wear.report.tex"
-            )
-    return text.translate(_FORMS)
+    return "".join(c if ord(c) in _FORMS else _typed(c) for c in text).translate(_FORMS)
+
+
+def _typed(character: str) -> str:
+    known = character.isascii() or character in _TYPED or ord(character) in _LATIN
+    return character if known else f"[U+{ord(character):04X}]"
 
 
 def verbatim(code: str, width: int) -> str:
-    """Return code for a `verbatim` environment: lines cut at `width`, the rest indented below."""
-    if "\\end{verbatim}" in code:
-        raise ValueError("a listing cannot hold the end of its own environment")
+    """Return code for a `verbatim` environment, which it cannot end: lines cut at `width`, the rest
+    indented below, a character that cannot be typed by its number."""
     lines = []
-    for line in code.rstrip("\n").split("\n"):
+    for line in code.rstrip("\n").replace("\\end{verbatim}", "\\end {verbatim}").split("\n"):
+        line = "".join(map(_typed, line))
         while len(line) > width:
             lines.append(line[:width])
             line = "    " + line[width:]

@@ -7,7 +7,8 @@ Overview
 Marks, besides those of Markdown
     {{ u | number("scene 4", 5, "mm") }}
                             a `TextNumber` by its source, shown to five digits, with its unit
-    {{ text | plain }}      words as they are; ``markup`` also sets formulas and references
+    {{ text | plain }}      words as they are in one line, ``paragraphs`` in several; ``markup``
+                            also sets formulas and references
     $u_c$                   a formula
     [eq:21], [(eq:18)]      a reference by kind and number, or by the number alone; ``sec: app: fig:
                             tab: claim: der: ref:`` likewise
@@ -37,7 +38,7 @@ from markdown_it.rules_core import StateCore
 from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 
-from wear.report.markup import escaped, markup
+from wear.report.markup import escaped, markup, paragraphs
 from wear.report.number import TextNumber, significant
 
 _LABEL = r"(?:eq|sec|app|fig|tab|claim|der|ref):[A-Za-z0-9.\-]+"
@@ -90,6 +91,7 @@ def parsed(template: str, values: Mapping[str, Any]) -> Tokens:
         keep_trailing_newline=True, autoescape=False, comment_start_string="{##",
     )  # fmt: skip
     environment.filters |= {"plain": escaped, "markup": markup, "number": _number}
+    environment.filters["paragraphs"] = paragraphs
     environment.filters["cell"] = lambda text: text.replace("|", r"\|")
     source = environment.from_string(template).render(values)
     return tuple(MARKDOWN.parse(source, {"numbers": numbers}))

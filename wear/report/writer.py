@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Sequence
 from typing import Any
 
 import jinja2
@@ -21,21 +20,13 @@ class Writer(RendererHTML):
 
     A macro takes the token. It has access to the `document`, the works to cite, `inside`, which
     writes the tokens of a line, and `of_line`, which writes a line of Markdown, such as a title.
-    `plain` has the types of token that are always written the same.
     """
 
-    def __init__(
-        self,
-        document: Document,
-        template: jinja2.Template,
-        plain: Mapping[str, str] = MappingProxyType({}),
-    ) -> None:
+    def __init__(self, document: Document, template: jinja2.Template) -> None:
         super().__init__()
         seen = {"document": document, "references": REFERENCES, "inside": self.inside}
         blocks = template.make_module({**seen, "of_line": self.of_line})
         rules: dict[str, Any] = self.rules
-        for kind, text in plain.items():
-            rules[kind] = lambda *_, text=text: text
         for kind, macro in vars(blocks).items():
             if isinstance(macro, Macro):
                 rules[kind] = lambda tokens, i, *_, macro=macro: str(macro(tokens[i]))

@@ -46,7 +46,7 @@ def _sentences(paper: Document) -> Iterator[Token]:
 
 def test_every_figure_and_table_is_mentioned_in_the_text(paper: Document) -> None:
     mentioned = {_series(p.content) for p in _sentences(paper) if p.type == "reference"}
-    floats = {_series(label) for label, m in paper.marks.items() if m.kind in ("figure", "table")}
+    floats = {_series(label) for label, m in paper.marks.items() if m.kind in ("fig", "tab")}
     assert floats - mentioned == set()
 
 

@@ -69,10 +69,22 @@ def test_marks_are_read_and_other_brackets_are_left_alone() -> None:
     assert "[x] {y} [no:label] $5" in words
 
 
-@given(st.text("ab_*`$[]{}<>|#\\ ", max_size=20).filter(lambda text: text == text.strip()))
+SIGNS = st.text("ab_*`$[]{}<>|#\\ &;-+=~1.):", max_size=20).filter(
+    lambda text: text == text.strip()
+)
+
+
+@given(SIGNS)
 def test_escaped_words_stay_as_they_are(text: str) -> None:
     shown = "".join(token.content for token in line(f"a{escaped(text)}b"))
     assert shown == f"a{text}b"
+
+
+@given(SIGNS.filter(bool))
+def test_a_paragraph_is_one_whatever_it_begins_with(text: str) -> None:
+    for words in (text, f"Table: {text}"):
+        types = [token.type for token in parsed("{{ it | paragraphs }}", {"it": words})]
+        assert types == ["paragraph_open", "inline", "paragraph_close", "document_close"]
 
 
 @given(

@@ -79,14 +79,14 @@ def test_every_label_is_on_the_page_under_its_number(sample, page):
     for mark in sample.marks.values():
         after = page.split(f'id="{mark.target}"', 1)[1]
         shown = {
-            "section": f'<span class="numeral">{mark.number}</span>',
-            "appendix": f'<span class="numeral">{mark.number}</span>',
-            "equation": f">({sample.marks[mark.target].number})</a>",
-            "figure": f"<b>{mark.name}.</b>",
-            "table": f"<b>{mark.name}.</b>",
+            "sec": f'<span class="numeral">{mark.number}</span>',
+            "app": f'<span class="numeral">{mark.number}</span>',
+            "eq": f">({sample.marks[mark.target].number})</a>",
+            "fig": f"<b>{mark.name}.</b>",
+            "tab": f"<b>{mark.name}.</b>",
             "claim": f">{mark.number}</b>",
-            "derivation": f"({mark.number})",
-            "work": f"<b>{mark.number and mark.name}</b>",
+            "der": f"({mark.number})",
+            "ref": f"<b>{mark.number and mark.name}</b>",
         }[mark.kind]
         assert shown in after, mark
 

@@ -139,6 +139,7 @@ def test_every_claim_decided_is_in_the_ledger(paper):
 def test_both_writers_take_it(paper):
     assert "<h1>" in page(paper)
     sources = report(paper)
+    assert "[U+" not in sources["report.tex"]  # every character has a form
     assert all(f"Eq{name}}}" in sources["equations.tex"] for name in ("WearPerCycle", "ContactLaw"))
 
 

@@ -11,6 +11,7 @@ from derive.files import write_atomically
 from tests.wear.report.conftest import document
 from wear.report import tex
 from wear.report.document import DisplayedEquation, Document
+from wear.report.markup import escaped, paragraphs
 from wear.report.publish import typeset, warnings
 from wear.report.tex import escape, verbatim
 
@@ -48,7 +49,7 @@ def numbers_labels_as_the_page_does(report: Path, document: Document) -> bool:
     """Whether TeX gave equations, figures, tables and sections the numbers of the page."""
     auxiliary = report.with_suffix(".aux").read_text(encoding="utf-8")
     numbers = dict(re.findall(r"\\newlabel\{([^}@]+)\}\{\{\{?([^}]*)\}", auxiliary))
-    named = ("claim", "derivation", "work")  # these have names, not numbers
+    named = ("claim", "der", "ref")  # these have names, not numbers
     return numbers == {
         label: mark.number
         for label, mark in document.marks.items()
@@ -104,9 +105,14 @@ def test_a_caption_may_name_anything(sample, tmp_path, need_tool):
     assert (outcome.notice, outcome.warnings) == ("", ())
 
 
-def test_a_character_without_a_form_is_named():
-    with pytest.raises(ValueError, match=r"U\+03C3"):
-        escape("roughness σ")
+def test_any_title_and_scene_file_of_a_user_can_be_typeset(tmp_path, need_tool):
+    """Greek as Greek, other scripts by their numbers; a listing does not end before its end."""
+    need_tool("pdflatex")
+    words = "σ Ωβ 中 \U0001f600 Ж {{ 7 }} $x$ [eq:21] \\end{verbatim} R&amp;D ~ ^"
+    text = f"# {escaped(words)}\n\n{paragraphs(f'- {words}')}\n\n```\n{words}\n```\n"
+    assert escape("σ Ω 中") == r"\ensuremath{\sigma} \ensuremath{\Omega} [U+4E2D]"
+    outcome = typeset(_write(tmp_path, tex.report(document(text))))
+    assert (outcome.notice, outcome.warnings) == ("", ())
 
 
 def test_a_listing_loses_no_character():

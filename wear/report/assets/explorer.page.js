@@ -400,7 +400,9 @@ function checkAgainstPython() {
     const solved = solveState(state);
     for (const [index, n] of check.cycles.entries()) {
       if (n > solved.history.reached) continue; // the scene says how far it was carried
-      const error = Math.abs(solved.history.at(n) / check.wear_mm[index] - 1);
+      const value = check.wear_mm[index];
+      const own = solved.history.at(n);
+      const error = value === 0 ? Math.abs(own) : Math.abs(own / value - 1);
       wear = Math.max(wear, Number.isNaN(error) ? Infinity : error);
       last = Math.max(last, n);
     }
