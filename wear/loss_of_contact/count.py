@@ -34,7 +34,6 @@ from wear.loss_of_contact.plan import (
     BEYOND,
     SHIFT,
     CountProblem,
-    GrazingPoint,
     count_problem,
     plan_domains,
 )
@@ -70,10 +69,11 @@ APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: larger increments have no series
 FINER = 1e-2  # of the tolerance of a cycle: that of the finer cycle for its error
-MOST_PREDICTIONS = 10  # one after the other
+MOST_PREDICTIONS = 32  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
+MANY_DOMAINS = 32  # so many of them are short, and half as many coefficients suffice
 
 
 class CountRequest(NamedTuple):
@@ -99,7 +99,7 @@ def count_scenes(
     """
     models, loads = [each.model for each in requests], [each.load for each in requests]
     edges = [each.edge for each in requests]
-    size = settings(rtol)
+    size = settings(rtol, [edge.pieces.begin for edge in edges])
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
@@ -128,7 +128,7 @@ def _wear_ranges(
 
 
 def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Counter]:
-    problem = yield from count_problem(request.model, request.load, request.edge, rtol, deadline)
+    problem = count_problem(request.model, request.load, request.edge, rtol, deadline)
     counter = _Counter(problem, request.start)
     while counter.unfinished(request.cycles):
         yield from counter.advance(max(request.cycles - counter.done, 1.0))
@@ -149,7 +149,7 @@ class _Counter:
         self.wear_ranges: list[WearRange] = []
         self.planned_to = start
         self.samples = Samples()
-        self.last_added = 0.0
+        self.last_added, self.last_growth = 0.0, 1.0
         self.singles = 0
         self.predicted: list[float] | None = None
         self.cost = Cost(0, 0)
@@ -180,6 +180,8 @@ class _Counter:
             return
         domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
         number = COEFFICIENTS if problem.rtol < MANY_DIGITS else FEWER_COEFFICIENTS
+        if len(domains) > MANY_DOMAINS:
+            number //= 2
         known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
         self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
@@ -233,28 +235,25 @@ class _Counter:
 
     def _to_the_grazing_wear(self) -> Coroutine[bool]:
         """Skip cycles next to a grazing wear that double precision does not resolve."""
-        point = self._next_grazing()
-        if point is None or point.at - self.wear > 2 * point.nearest:
+        ahead = (stop for stop in self.problem.stops if stop.wear > self.wear * BEYOND)
+        point = next(ahead, None)
+        if point is None or point.wear - self.wear > 2 * point.nearest:
             return False
         # Contact shrinks like the root of the distance: twice the cycles at the present rate.
         rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
-        ahead, distance = point.at, point.at - self.wear
+        distance = point.wear - self.wear
         cycles_left = np.floor(2 * distance / rate)
         if not FEW <= cycles_left < np.inf:
             return False
-        part = np.array([[self.wear], [ahead], [cycles_left], [distance]])
+        part = np.array([[self.wear], [point.wear], [cycles_left], [distance]])
         self.parts.append(UnresolvedIterates(*part))
-        self.wear, self.done = ahead, self.done + float(cycles_left)
+        self.wear, self.done = point.wear, self.done + float(cycles_left)
         return True
-
-    def _next_grazing(self) -> GrazingPoint | None:
-        """Return the next grazing wear, None if there is none."""
-        stops = self.problem.stops
-        return next((stop for stop in stops if stop.at > self.wear * BEYOND), None)
 
     def _cycle(self) -> bool:
         """Add one cycle, if a sample near by gives it accurately."""
-        sample, limit = self.samples.at(self.wear, self.last_added), self.problem.limit_wear
+        guess, limit = self.last_added * self.last_growth, self.problem.limit_wear
+        sample = self.samples.at(self.wear, guess)
         known = sample.error <= self.problem.size.endpoint_tolerance
         if self.predicted is None and not known:
             return False
@@ -300,6 +299,7 @@ class _Counter:
             self.parts.append(cycles)
         self.wear, self.done = cycles.wear[-1], self.done + len(cycles.added)
         self.last_added = cycles.added[-1]
+        self.last_growth = min(cycles.growth[-1], 1.0)
 
 
 def _segments(
