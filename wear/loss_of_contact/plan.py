@@ -57,8 +57,8 @@ class BranchPoint(NamedTuple):
 
 class _NearEnds(NamedTuple):
     """Distances (k,), mm, `beyond` the beginning of a range between two grazing wears, and `before`
-    the branch point at its end, both falling from half the range; and the increments of cycles
-    there."""
+    the branch point at its end, falling from half the range, or from all of it; and the increments
+    of cycles there."""
 
     beyond: FloatArray
     before: FloatArray
@@ -164,8 +164,12 @@ def _near_ends(
     added = np.array([np.nan if last is None else last.added, *(stop.added for stop in stops)])
     cycles = 2 * (ends - begins) / (added[1:] + added[:-1])
     many = ~((ends - begins) / np.minimum(added[1:], added[:-1]) < FEWEST / 2)
+    # From a wear that is nearer to the end than to what lies behind, one series leads there.
+    since = begin - (0.0 if last is None else last.grazing.wear)
+    single = (begins == begin) & (since > ends - begins)
+    half = np.where(single, begins, (begins + ends) / 2)[many]
     begin_of, branch = begins[many], np.array([stop.before for stop in stops])[many]
-    half, shrinking = (begin_of + ends[many]) / 2, FACTOR ** np.arange(STEPS)
+    shrinking = FACTOR ** np.arange(STEPS)
     beyond = (half - begin_of)[:, None] * shrinking
     before = np.maximum(branch - half, TINY)[:, None] * shrinking
     wear = np.stack([begin_of[:, None] + beyond, branch[:, None] - before])
