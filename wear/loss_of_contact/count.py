@@ -40,7 +40,6 @@ from wear.loss_of_contact.plan import (
 from wear.loss_of_contact.queries import (
     CYCLES,
     FINER_CYCLES,
-    JUMPS,
     WEAR_RANGES,
     BatchSolver,
     Coroutine,
@@ -52,7 +51,7 @@ from wear.loss_of_contact.queries import (
 )
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.switching import Edge
-from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, cycles_to_end, wear_ranges
+from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, wear_ranges
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
@@ -104,7 +103,7 @@ def count_scenes(
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(each, rtol, deadline) for each in requests]
-    answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _wear_ranges]
+    answers: list[BatchSolver] = [frozen_cycles(coarse), _wear_ranges]
     answers += [cycles_by(coarse), cycles_by(fine)]
     counters = run_together(counts, answers, deadline + grace)
     parts = [part for counter in counters for part in counter.parts]
@@ -114,10 +113,6 @@ def count_scenes(
         _segments(counter, [next(found) for _ in counter.parts], each)
         for counter, each in zip(counters, requests, strict=True)
     ]
-
-
-def _jumps(_: list[int], counters: list[tuple[AbelSolution, float]]) -> list[tuple[float, float]]:
-    return cycles_to_end(counters)
 
 
 def _wear_ranges(
@@ -163,7 +158,7 @@ class _Counter:
         """Count up to so many `cycles` more."""
         if self._lacks_a_plan(cycles):
             yield from self._plan(cycles)
-        elif (yield from self._along(cycles)) or (yield from self._to_the_grazing_wear()):
+        elif self._along(cycles) or (yield from self._to_the_grazing_wear()):
             return
         elif not self._cycle():
             yield from self._ask(cycles)
@@ -186,7 +181,7 @@ class _Counter:
         self.cost = self.cost.plus(*cost)
         self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
 
-    def _along(self, cycles: float) -> Coroutine[bool]:
+    def _along(self, cycles: float) -> bool:
         """Count on the range with this wear, if there is one; return whether that led on."""
         for here in self.wear_ranges:
             if here.series.domain.start <= self.wear < here.series.domain.end:
@@ -194,15 +189,14 @@ class _Counter:
                 abel = here.abel
                 if abel is not None and z < abel.first:
                     return self._walk(here, abel.first, cycles)
-                some = yield from self._jump(abel, z)
-                return some or self._walk(here, here.end, cycles)
+                return self._jump(abel, z) or self._walk(here, here.end, cycles)
         return False
 
-    def _jump(self, abel: AbelSolution | None, z: float) -> Coroutine[bool]:
+    def _jump(self, abel: AbelSolution | None, z: float) -> bool:
         """Jump from z to the end of the panels of Abel's equation, if that takes a cycle."""
         if abel is None or not z < abel.last:
             return False
-        ran, z_after = yield Query(JUMPS, (abel, z))
+        ran, z_after = abel.to_end(z)
         limit_wear = abel.limit_wear
         if ran < 1.0 and not limit_wear:
             return False
@@ -281,7 +275,7 @@ class _Counter:
             remaining = cycles - ahead.done
             if ahead._lacks_a_plan(remaining) or in_a_row == MOST_PREDICTIONS:
                 break
-            in_a_row = 0 if (yield from ahead._along(remaining)) else in_a_row + 1
+            in_a_row = 0 if ahead._along(remaining) else in_a_row + 1
             if in_a_row:
                 ahead._cycle()
         wear = np.array(ahead.predicted)

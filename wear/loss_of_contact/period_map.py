@@ -120,10 +120,8 @@ class SwitchedPeriodMap(NamedTuple):
                 if size > 1:
                     piece, m = self.pieces.take(at[:, None] + np.arange(size)), len(self.rule.nodes)
                     run = lasting_contact(own, piece, m, self.tolerance, start, before)
-                    sound = run.sound
-                    alone_until[rows[~sound]] = following[rows[~sound]] + size
-                    rows = rows[sound]
-                    run = ContactResult(*(each[sound] for each in run[:4]), run.evaluations)
+                    alone_until[rows[~run.sound]] = following[rows[~run.sound]] + size
+                    rows, run = rows[run.sound], run.where_sound()
                     todo[rows], after[rows] = False, following[rows] + size - 1
                 else:
                     piece = self.pieces.take(at)
@@ -147,8 +145,11 @@ class SwitchedPeriodMap(NamedTuple):
         some = _PieceSolver(
             cycles.take(which).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
         )
-        follow = some.on_springs if cycles.model.compliant else some.rigid
-        return follow(needed[rows], uncertainty[rows]).among(rows, len(wear))
+        if cycles.model.compliant:
+            run = some.on_springs(needed[rows], uncertainty[rows])
+        else:
+            run = some.rigid(needed[rows])
+        return run.among(rows, len(wear))
 
     def each_without_feedback(self, wear: FloatArray, scene: IntArray) -> FloatArray:
         """Return the increments (mm) of all pieces, one cycle after the other, with the rate frozen
@@ -215,7 +216,8 @@ def switched_period_map(
 def _next(marked: BoolArray, start: IntArray) -> IntArray:
     """Return the first `marked` column (k, n) from `start` (k,) on, n where there is none."""
     marked = marked & (np.arange(marked.shape[1]) >= start[:, None])
-    return np.where(marked.any(axis=1), np.argmax(marked, axis=1), marked.shape[1])
+    first: IntArray = np.where(marked.any(axis=1), np.argmax(marked, axis=1), marked.shape[1])
+    return first
 
 
 def margin_roundoff(model: Model, peak: FloatArray | float, wear: FloatArray) -> FloatArray:
@@ -250,7 +252,7 @@ class _PieceSolver:
         self.added, self.error = np.zeros((2, len(self.u)))
         self.sound, self.over = np.full(len(self.u), True), np.full(len(self.u), False)
 
-    def rigid(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
+    def rigid(self, needed: FloatArray) -> ContactResult:
         """Return the piece on a rigid support; contact is made under displacements (mm) that are
         `needed` (k,)."""
         piece, cycles = self.piece, self.cycles

@@ -22,11 +22,9 @@ from wear.loss_of_contact.switching import Edge
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import FloatArray
-from wear.orbit.iterates import nonzero
 from wear.orbit.period_map import Settings, settings
-from wear.orbit.plan import LEAST, MOST_LOG
+from wear.orbit.plan import LEAST, states_ahead
 
-STEP, STEPS_AHEAD = 0.2, 180  # in ln(u + scale)
 SHIFT = 12.0  # of panels, over the scale: then one serves every regime to the end
 FEWEST = 8.0  # cycles between two grazing wears for which a series pays
 STOPS_AT_ONCE = 16  # grazing wears for which the plan is made before it is known to go on
@@ -125,7 +123,8 @@ def plan_domains(
         points = yield from _branch_points(problem, problem.stops[at : at + STOPS_AT_ONCE])
         if at < first:
             last, *points = points
-        for stop, near in zip(points, (yield from _near_ends(begin, last, points)), strict=True):
+        near_ends = yield from _near_ends(problem, begin, last, points)
+        for stop, near in zip(points, near_ends, strict=True):
             if counted > needed:
                 return domains, begin
             if isinstance(near, float):
@@ -147,14 +146,17 @@ def plan_domains(
     added = yield from without_feedback(np.array([begin * JUST_BEYOND]))
     if not added[0] > 0.0:
         return domains, np.inf
-    reach = yield from look_ahead(problem, begin, max(cycles - counted, LEAST))
+    # With the rate frozen within each cycle: with feedback it may take more cycles, or fewer.
+    ahead = states_ahead(*(np.array([x]) for x in (begin, problem.scale, problem.end)))
+    wanted = AHEAD * max(cycles - counted, LEAST)
+    reach = float(ahead.after((yield from without_feedback(ahead.u)), np.array([wanted]))[0])
     half = begin if last is None else min(begin + problem.scale, (begin + reach) / 2)
     domains += [*_outwards(problem, last, begin, half), *_outwards(problem, None, half, reach)]
-    return domains, reach  # with feedback it may take more cycles to there, or fewer
+    return domains, reach
 
 
 def _near_ends(
-    begin: float, last: BranchPoint | None, stops: Sequence[BranchPoint]
+    problem: CountProblem, begin: float, last: BranchPoint | None, stops: Sequence[BranchPoint]
 ) -> Coroutine[list[_NearEnds | float]]:
     """Return the increments near the ends of the ranges from the wear `begin` to the first of some
     grazing wears, and from each of them to the next; for a range that is passed in a few cycles
@@ -164,9 +166,10 @@ def _near_ends(
     added = np.array([np.nan if last is None else last.added, *(stop.added for stop in stops)])
     cycles = 2 * (ends - begins) / (added[1:] + added[:-1])
     many = ~((ends - begins) / np.minimum(added[1:], added[:-1]) < FEWEST / 2)
-    # From a wear that is nearer to the end than to what lies behind, one series leads there.
+    # From a wear that is nearer to the limit than to what lies behind, one series leads there.
     since = begin - (0.0 if last is None else last.grazing.wear)
-    single = (begins == begin) & (since > ends - begins)
+    limit = np.nan if problem.limit_wear is None else problem.limit_wear.wear
+    single = (begins == begin) & (ends == limit) & (since > ends - begins)
     half = np.where(single, begins, (begins + ends) / 2)[many]
     begin_of, branch = begins[many], np.array([stop.before for stop in stops])[many]
     shrinking = FACTOR ** np.arange(STEPS)
@@ -225,24 +228,3 @@ def _towards(
     return (
         [SeriesDomain(coordinate, half, end, *way, stop.grazing.uncertainty)] if half < end else []
     )
-
-
-def look_ahead(problem: CountProblem, start: float, cycles: float) -> Coroutine[float]:
-    """Return the approximate wear (mm) after `cycles` from `start` on, with the rate frozen within
-    each cycle, but no more than the model permits."""
-    y, end = STEP * np.arange(STEPS_AHEAD), problem.end
-    if np.isfinite(end):
-        y = np.linspace(0.0, np.log1p((end - start) / (start + problem.scale)), STEPS_AHEAD)
-    wear: FloatArray = start + (start + problem.scale) * np.expm1(y)
-    added = yield from without_feedback(wear)
-    density = np.minimum(-np.log(added + TINY), MOST_LOG)
-    rise = nonzero(np.diff(density))
-    # Between two points the density is taken as exponential in the wear.
-    parts = np.exp(density[:-1]) * np.expm1(rise) / rise * np.diff(wear)
-    counts = np.concatenate([[0.0], np.cumsum(parts)])
-    needed = AHEAD * max(cycles, LEAST)
-    last = int(np.searchsorted(counts, needed)) - 1
-    if last >= len(parts):
-        return float(wear[-1])
-    share = np.log1p((needed - counts[last]) / parts[last] * np.expm1(rise[last])) / rise[last]
-    return float(wear[last] + share * (wear[last + 1] - wear[last]))
