@@ -68,7 +68,7 @@ APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: larger increments have no series
 FINER = 1e-2  # of the tolerance of a cycle: that of the finer cycle for its error
-MOST_PREDICTIONS = 32  # one after the other
+MOST_PREDICTIONS = 16  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
