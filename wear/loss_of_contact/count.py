@@ -77,7 +77,8 @@ MANY_DOMAINS = 32  # so many of them are short, and half as many coefficients su
 
 class CountRequest(NamedTuple):
     """A request for `cycles` of a model under a load that repeats, with its edge of contact, from
-    the wear `start` (mm), known up to `start_error`."""
+    the wear `start` (mm), known up to `start_error`; cycles beyond a wear `deepest` (mm) are not
+    counted."""
 
     model: Model
     load: Load
@@ -85,6 +86,7 @@ class CountRequest(NamedTuple):
     cycles: float
     start: float = 0.0
     start_error: float = 0.0
+    deepest: float = np.inf
 
 
 @np.errstate(all="ignore")
@@ -123,7 +125,8 @@ def _wear_ranges(
 
 
 def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Counter]:
-    problem = count_problem(request.model, request.load, request.edge, rtol, deadline)
+    asked = request.model, request.load, request.edge, request.deepest
+    problem = count_problem(*asked, rtol, deadline)
     counter = _Counter(problem, request.start)
     while counter.unfinished(request.cycles):
         yield from counter.advance(max(request.cycles - counter.done, 1.0))
@@ -151,7 +154,8 @@ class _Counter:
 
     def unfinished(self, cycles: float) -> bool:
         """Return whether some of so many cycles are still to be counted."""
-        ahead = self.done < cycles and self.wear < self.problem.end
+        most = min(self.problem.end, self.problem.deepest)
+        ahead = self.done < cycles and self.wear < most
         return not self.over and (ahead or not self.parts)
 
     def advance(self, cycles: float) -> Coroutine[None]:

@@ -66,14 +66,15 @@ class _NearEnds(NamedTuple):
 
 class CountProblem(NamedTuple):
     """A count of one scene: the grazing wears `stops`, rising; the `limit_wear` if wear tends to
-    the last of them; the wear `end` (mm) at which the model ends; the `scale` of the wear, mm; and
-    the requested relative accuracy."""
+    the last of them; the wear `end` (mm) at which the model ends, and the `deepest` wear (mm) that
+    is asked for; the `scale` of the wear, mm; and the requested relative accuracy."""
 
     model: Model
     load: Load
     stops: list[GrazingWear]
     limit_wear: LimitWear | None
     end: float
+    deepest: float
     scale: float
     rtol: float
     size: Settings
@@ -81,16 +82,17 @@ class CountProblem(NamedTuple):
 
 
 def count_problem(
-    model: Model, load: Load, edge: Edge, rtol: float, deadline: float
+    model: Model, load: Load, edge: Edge, deepest: float, rtol: float, deadline: float
 ) -> CountProblem:
-    """Return the count of a scene to the relative accuracy `rtol`."""
+    """Return the count of a scene up to a wear `deepest` (mm), to the relative accuracy `rtol`."""
     equation = WearEquation(model, (load,))
     scale, end = float(equation.scale[0]), float(equation.limit[0])
     stops = [each for each in grazing_wears(model, load, edge, scale) if each.wear < end]
     limit_wear = limit_wear_of(model, load, stops[-1].wear) if stops else None
     if limit_wear is not None and not fades(model, load, edge, limit_wear.wear):
         limit_wear = None
-    return CountProblem(model, load, stops, limit_wear, end, scale, rtol, settings(rtol), deadline)
+    sizes = end, deepest, scale, rtol, settings(rtol), deadline
+    return CountProblem(model, load, stops, limit_wear, *sizes)
 
 
 def _branch_points(
@@ -125,7 +127,7 @@ def plan_domains(
             last, *points = points
         near_ends = yield from _near_ends(problem, begin, last, points)
         for stop, near in zip(points, near_ends, strict=True):
-            if counted > needed:
+            if counted > needed or begin > problem.deepest:
                 return domains, begin
             if isinstance(near, float):
                 counted, begin, last = counted + near, stop.grazing.wear, stop
