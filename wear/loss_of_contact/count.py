@@ -72,7 +72,6 @@ MOST_PREDICTIONS = 16  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
-MANY_DOMAINS = 32  # so many of them are short, and half as many coefficients suffice
 
 
 class CountRequest(NamedTuple):
@@ -179,8 +178,6 @@ class _Counter:
             return
         domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
         number = COEFFICIENTS if problem.rtol < MANY_DIGITS else FEWER_COEFFICIENTS
-        if len(domains) > MANY_DOMAINS:
-            number //= 2
         known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
         self.cost = self.cost.plus(*cost)
         self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
