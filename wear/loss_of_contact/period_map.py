@@ -115,17 +115,18 @@ class SwitchedPeriodMap(NamedTuple):
                 rows = np.flatnonzero(which)
                 if len(rows) == 0:
                     continue
-                own, before, at = cycles.take(which), added[rows], (first + following)[rows]
+                own, before = cycles.take(which), added[rows]
                 start = wear[rows] + before
                 if size > 1:
-                    piece, m = self.pieces.take(at[:, None] + np.arange(size)), len(self.rule.nodes)
+                    at = (first + following)[rows, None] + np.arange(size)
+                    piece, m = self.pieces.take(at), len(self.rule.nodes)
                     run = lasting_contact(own, piece, m, self.tolerance, start, before)
                     alone_until[rows[~run.sound]] = following[rows[~run.sound]] + size
                     rows, run = rows[run.sound], run.where_sound()
                     todo[rows], after[rows] = False, following[rows] + size - 1
                 else:
-                    piece = self.pieces.take(at)
-                    run = self.through(own, piece, start, before)
+                    piece = self.pieces.take(np.minimum(first + following, self.first[-1] - 1))
+                    run = self.through(own, piece.take(rows), start, before)
                 run = run.among(rows, len(wear))
                 added = added + run.added
                 yield piece, run
