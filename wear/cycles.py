@@ -78,12 +78,14 @@ def orbit_of_scene(
     rtol: float,
     start: float = 0.0,
     deadline: float = np.inf,
+    deepest: float = np.inf,
 ) -> SceneOrbit:
     """Return the orbit of a scene over up to `cycles` of a load that repeats, from the wear `start`
-    (mm); after the `deadline` (`time.monotonic()`) nothing is refined, and a little later a
-    `TimeoutError` ends the cycle at work."""
+    (mm), or until it exceeds a wear `deepest` (mm), or a little later; after the `deadline`
+    (`time.monotonic()`) nothing is refined, and soon a `TimeoutError` ends the cycle at work."""
     if model.ends_at_3_sigma:
-        request = CountRequest(model, load, edge_of_contact(model, load), cycles, start)
+        edge = edge_of_contact(model, load)
+        request = CountRequest(model, load, edge, cycles, start, deepest=deepest)
         return count_scenes([request], rtol, deadline, GRACE)[0]
     one, equation = np.ones(1), WearEquation(model, (load,), deadline=deadline + GRACE)
     states = orbit(equation, cycles * one, rtol, start * one, 0.0 * one, deadline)
@@ -134,8 +136,10 @@ def stages(
     rtol: float,
     start: float = 0.0,
     deadline: float = np.inf,
+    deepest: float = np.inf,
 ) -> Iterator[Stage]:
-    """Yield the stages of a load up to cycle `last`, from the wear `start` (mm) on.
+    """Yield the stages of a load up to cycle `last`, from the wear `start` (mm) on; of a load that
+    repeats, up to a wear `deepest` (mm).
 
     The error with which a block starts is carried on, in proportion to the wear rate where that
     grows: two solutions of one equation keep their distance in time. No block follows one whose
@@ -146,7 +150,7 @@ def stages(
         acting, until, _ = span(load, done)
         ends = min(float(until), last)
         try:
-            solution = orbit_of_scene(model, acting, ends - done, rtol, start, deadline)
+            solution = orbit_of_scene(model, acting, ends - done, rtol, start, deadline, deepest)
         except TimeoutError:
             return
         stage = Stage(acting, done, ends, solution, 0.0)
@@ -226,11 +230,11 @@ def _as_far_as_needed(
     if isinstance(load, Blocks):
         yield from stages(model, load, most, rtol)
         return
-    reach = LEAST
+    reach, deepest = LEAST, float(np.max(wear, initial=0.0))
     while True:
-        (stage,) = stages(model, load, reach, rtol)
+        (stage,) = stages(model, load, reach, rtol, deepest=deepest)
         solution = stage.solution
-        if reach >= most or solution.ended or np.max(wear, initial=0.0) <= solution.last_wear:
+        if reach >= most or solution.ended or deepest <= solution.last_wear:
             break
         reach = min(reach * FARTHER, most)
     yield stage._replace(ends=most)
@@ -297,7 +301,7 @@ def cycles_to_depth(
         todo, reach = np.arange(len(group)), LEAST
         while len(todo):
             reach = min(reach * FARTHER, float(MOST_CYCLES))
-            orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol)
+            orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol, np.max(depths))
             cycles, uncertain = orbit.until(np.broadcast_to(depths, (len(todo), len(depths))))
             cycles[cycles > reach] = np.inf
             count[todo], error[todo] = cycles, uncertain / np.maximum(cycles, 1.0)
@@ -316,12 +320,13 @@ def cycles_to_depth(
 ValueAndError = tuple[FloatArray, FloatArray]
 
 
-def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float) -> Orbit:
-    """Return the orbits of scenes of one variant, over as many `cycles` each."""
+def _orbit(scenes: Sequence[Scene], cycles: float, rtol: float, deepest: float = np.inf) -> Orbit:
+    """Return the orbits of scenes of one variant, over as many `cycles` each, or until the wear
+    exceeds `deepest` (mm)."""
     if scenes[0].contact.ends_at_3_sigma:
         models, loads = [bind(scene) for scene in scenes], [scene.periodic_load for scene in scenes]
         parts = zip(models, loads, edges_of_contact(models, loads), strict=True)
-        requests = [CountRequest(*part, cycles) for part in parts]
+        requests = [CountRequest(*part, cycles, deepest=deepest) for part in parts]
         return joined([solution.orbit for solution in count_scenes(requests, rtol)])
     none = np.zeros(len(scenes))
     return orbit(equation_of(scenes), cycles + none, rtol, none, none)

@@ -1,13 +1,14 @@
 """Blocks of loads: what is joined without a change of load is as if never cut."""
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
-from tests.wear.reference_scenes import REFERENCE, reference_scene
+from tests.wear.reference_scenes import REFERENCE, SINE, made, reference_scene
 from wear import cycles as count
 from wear.binding import bind
 from wear.cycles import first_passage, wear_after
-from wear.load import Block, Blocks, Sine
+from wear.load import Block, Blocks, Load, Sine, Table
 
 
 def test_equal_blocks_are_one_load() -> None:
@@ -41,3 +42,18 @@ def test_cycles_until_a_wear_across_blocks() -> None:
     wear = wear_after(model, blocks, cycles, 1e-11).u_c
     found = first_passage(model, blocks, np.append(wear, 1.0), 1e-11)
     assert found.cycles.tolist() == [*cycles.tolist(), np.inf]
+
+
+@pytest.mark.parametrize(
+    ("load", "first"),
+    [(SINE, 10**5), (SINE, 10**8), (Table((0.0, 0.02, 0.06), (0.0, 5e-4, 0.0)), 10**7)],
+    ids=["early", "late", "sharp"],
+)
+def test_a_block_that_begins_near_the_limit_wear_is_counted(load: Load, first: int) -> None:
+    """Its cycles were taken one by one, until there were too many: status 3."""
+    model = bind(made(1e-6, 0.25, load, k=1e5, cutoff=True))
+    blocks = Blocks((Block(load, first), Block(load, 10**10 - first)))
+    found = wear_after(model, blocks, np.array([1e10]), 1e-11)
+    whole = wear_after(model, load, np.array([1e10]), 1e-11)
+    assert found.error[0] <= 1e-11
+    assert abs(found.u_c[0] / whole.u_c[0] - 1) <= found.error[0] + whole.error[0]

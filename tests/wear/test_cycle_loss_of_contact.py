@@ -53,6 +53,24 @@ def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
     assert np.all(off <= 3 * few.error + 1e-13 * many.increment)
 
 
+@pytest.mark.parametrize("k", [None, 1e5])
+def test_rows_on_which_contact_lasts_are_taken_together(k):
+    """A noisy record took as many steps as it has rows."""
+    noise = 1e-5 * np.random.default_rng(1).standard_normal(200)
+    times, values = np.arange(201) / 200, 5e-4 * np.sin(2 * np.pi * np.arange(200) / 200) + noise
+    load = Table(tuple((0.06 * times).tolist()), (*values.tolist(), float(values[0])))
+    model = bind(made(1e-5, 0.25, load, pin=True, k=k, cutoff=True))
+    cycle = switched_period_map([model], [load], [edge_of_contact(model, load)], 8, 1e-10)
+    wear, scene = np.linspace(0.0, 1e-3, 7), np.zeros(7, dtype=int)
+    one_by_one = [run for _, run in cycle.pieces_from(wear, scene)]
+    together = list(cycle.pieces_from(wear, scene, (64, 16)))
+    assert len(together) <= len(one_by_one) / 2
+    found, added = cycle.advance(wear, scene), sum(run.added for run in one_by_one)
+    assert found.converged.all()
+    allowed = found.error + sum(run.error for run in one_by_one) + 1e-14 * added
+    assert np.all(np.abs(found.increment - added) <= allowed)
+
+
 @pytest.mark.parametrize("kind", ["harmonics", "table"])
 @pytest.mark.parametrize(("K", "f_c"), [(3e-4, 0.0), (5e-3, 0.0), (3e-3, 0.5)])
 def test_contact_lost_and_found_again_on_one_rise(kind, K, f_c):

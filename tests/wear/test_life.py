@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from tests.wear.reference_scenes import made
+from wear.binding import bind
+from wear.cycles import orbit_of_scene, wear_after
 from wear.faults import UsageError
 from wear.life import Reached, cycles_until
-from wear.load import Block, Blocks, HistoryLoad, Sine
+from wear.load import Block, Blocks, HistoryLoad, Sine, Table
 from wear.scene import load_scene
 from wear.solver import solve
 
@@ -83,3 +86,15 @@ def test_what_is_no_depth_is_refused() -> None:
     record = HistoryLoad((0.0, 1.0), (0.0, 0.0), 1.0)
     with pytest.raises(UsageError, match="does not repeat"):
         cycles_until(replace(SECTION4, load=record), 1e-3)
+
+
+def test_no_cycle_far_beyond_the_depth_is_counted() -> None:
+    """With loss of contact 200,000 cycles were counted where the depth was reached in 300."""
+    wear = 5e-4 * np.sin(2 * np.pi * np.arange(40) / 40) * (1 + 0.3 * np.cos(np.arange(40) ** 2))
+    load = Table(tuple((0.06 * np.arange(41) / 40).tolist()), (*wear.tolist(), float(wear[0])))
+    model = bind(made(1e-6, 0.25, load, pin=True, k=1e5, cutoff=True))
+    depth = wear_after(model, load, np.array([300.0]), 1e-7).u_c
+    near = orbit_of_scene(model, load, 2e5, 1e-7, deepest=float(depth[0]))
+    far = orbit_of_scene(model, load, 2e5, 1e-7)
+    assert near.until(depth)[0].tolist() == far.until(depth)[0].tolist() == [300.0]
+    assert near.cost.cycles_integrated < 0.7 * far.cost.cycles_integrated

@@ -99,8 +99,8 @@ def leg(
             continue
         step = _SolverStep(solver.dense_output(), before.phase, float(solver.t), ode.unit)
         side = side or (0.0 if kink is None else step.side(kink))
-        kink_phase = None if kink is None else step.first(_scaled(side, kink))
-        opened = None if slack is None else step.first(_shifted(slack, ode.margin))
+        kink_phase = None if kink is None else step.first(kink, factor=side)
+        opened = None if slack is None else step.first(ode.margin, slack=slack)
         found = opened if kink_phase is None else kink_phase
         if found is None:
             continue
@@ -175,26 +175,21 @@ class _SolverStep(NamedTuple):
         phase = self.start + (self.end - self.start) / SAMPLES_PER_STEP
         return float(np.sign(function(phase, float(self.wear(phase)))))
 
-    def first(self, function: Callable[[Real, Real], Real]) -> float | None:
-        """Return the first phase at which a function of phase and wear becomes negative."""
+    def first(
+        self, function: Callable[[Real, Real], Real], factor: float = 1.0, slack: float = 0.0
+    ) -> float | None:
+        """Return the first phase at which a function of phase and wear, times a factor, falls below
+        `-slack`."""
+
+        def value(phase: Real) -> Real:
+            return factor * function(phase, self.wear(phase)) + slack
+
         phases = np.linspace(self.start, self.end, SAMPLES_PER_STEP + 1)
-        below = np.flatnonzero(function(phases, self.wear(phases))[1:] < 0.0)
+        below = np.flatnonzero(value(phases)[1:] < 0.0)
         if len(below) == 0:
             return None
         at = int(below[0])
-
-        def value(phase: float) -> Real:
-            return function(phase, float(self.wear(phase)))
-
         return first_zero(value, float(phases[at]), float(phases[at + 1]))
-
-
-def _scaled(factor: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
-    return lambda phase, wear: factor * function(phase, wear)
-
-
-def _shifted(term: float, function: Callable[[Real, Real], Real]) -> Callable[[Real, Real], Real]:
-    return lambda phase, wear: function(phase, wear) + term
 
 
 def first_zero(function: Callable[[float], Any], start: float, end: float) -> float:

@@ -141,6 +141,11 @@ class ContactResult(NamedTuple):
     parts: tuple[ContactPart, ...] = ()
     slid: IntArray = np.empty(0, dtype=np.intp)
 
+    def where_sound(self) -> ContactResult:
+        """Return the wears whose solution is sound, without parts."""
+        added, error, length = (array[self.sound] for array in self[:3])
+        return ContactResult(added, error, length, self.sound[self.sound], self.evaluations)
+
     def among(self, rows: IntArray, number: int) -> ContactResult:
         """Return the result for so many wears, of which those in `rows` were in contact."""
         if len(rows) == number:

@@ -34,14 +34,12 @@ from wear.loss_of_contact.plan import (
     BEYOND,
     SHIFT,
     CountProblem,
-    GrazingPoint,
     count_problem,
     plan_domains,
 )
 from wear.loss_of_contact.queries import (
     CYCLES,
     FINER_CYCLES,
-    JUMPS,
     WEAR_RANGES,
     BatchSolver,
     Coroutine,
@@ -53,7 +51,7 @@ from wear.loss_of_contact.queries import (
 )
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.switching import Edge
-from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, cycles_to_end, wear_ranges
+from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, wear_ranges
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
@@ -70,7 +68,7 @@ APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: larger increments have no series
 FINER = 1e-2  # of the tolerance of a cycle: that of the finer cycle for its error
-MOST_PREDICTIONS = 10  # one after the other
+MOST_PREDICTIONS = 16  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
 COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
@@ -78,7 +76,8 @@ COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many 
 
 class CountRequest(NamedTuple):
     """A request for `cycles` of a model under a load that repeats, with its edge of contact, from
-    the wear `start` (mm), known up to `start_error`."""
+    the wear `start` (mm), known up to `start_error`; cycles beyond a wear `deepest` (mm) are not
+    counted."""
 
     model: Model
     load: Load
@@ -86,6 +85,7 @@ class CountRequest(NamedTuple):
     cycles: float
     start: float = 0.0
     start_error: float = 0.0
+    deepest: float = np.inf
 
 
 @np.errstate(all="ignore")
@@ -99,12 +99,12 @@ def count_scenes(
     """
     models, loads = [each.model for each in requests], [each.load for each in requests]
     edges = [each.edge for each in requests]
-    size = settings(rtol)
+    size = settings(rtol, [edge.pieces.begin for edge in edges])
     coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(each, rtol, deadline) for each in requests]
-    answers: list[BatchSolver] = [frozen_cycles(coarse), _jumps, _wear_ranges]
+    answers: list[BatchSolver] = [frozen_cycles(coarse), _wear_ranges]
     answers += [cycles_by(coarse), cycles_by(fine)]
     counters = run_together(counts, answers, deadline + grace)
     parts = [part for counter in counters for part in counter.parts]
@@ -116,10 +116,6 @@ def count_scenes(
     ]
 
 
-def _jumps(_: list[int], counters: list[tuple[AbelSolution, float]]) -> list[tuple[float, float]]:
-    return cycles_to_end(counters)
-
-
 def _wear_ranges(
     _: list[int], known: list[tuple[list[IncrementSeries], CountProblem]]
 ) -> Iterator[list[WearRange]]:
@@ -128,7 +124,8 @@ def _wear_ranges(
 
 
 def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Counter]:
-    problem = yield from count_problem(request.model, request.load, request.edge, rtol, deadline)
+    asked = request.model, request.load, request.edge, request.deepest
+    problem = count_problem(*asked, rtol, deadline)
     counter = _Counter(problem, request.start)
     while counter.unfinished(request.cycles):
         yield from counter.advance(max(request.cycles - counter.done, 1.0))
@@ -149,21 +146,22 @@ class _Counter:
         self.wear_ranges: list[WearRange] = []
         self.planned_to = start
         self.samples = Samples()
-        self.last_added = 0.0
+        self.last_added, self.last_growth = 0.0, 1.0
         self.singles = 0
         self.predicted: list[float] | None = None
         self.cost = Cost(0, 0)
 
     def unfinished(self, cycles: float) -> bool:
         """Return whether some of so many cycles are still to be counted."""
-        ahead = self.done < cycles and self.wear < self.problem.end
+        most = min(self.problem.end, self.problem.deepest)
+        ahead = self.done < cycles and self.wear < most
         return not self.over and (ahead or not self.parts)
 
     def advance(self, cycles: float) -> Coroutine[None]:
         """Count up to so many `cycles` more."""
         if self._lacks_a_plan(cycles):
             yield from self._plan(cycles)
-        elif (yield from self._along(cycles)) or (yield from self._to_the_grazing_wear()):
+        elif self._along(cycles) or (yield from self._to_the_grazing_wear()):
             return
         elif not self._cycle():
             yield from self._ask(cycles)
@@ -184,7 +182,7 @@ class _Counter:
         self.cost = self.cost.plus(*cost)
         self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
 
-    def _along(self, cycles: float) -> Coroutine[bool]:
+    def _along(self, cycles: float) -> bool:
         """Count on the range with this wear, if there is one; return whether that led on."""
         for here in self.wear_ranges:
             if here.series.domain.start <= self.wear < here.series.domain.end:
@@ -192,15 +190,14 @@ class _Counter:
                 abel = here.abel
                 if abel is not None and z < abel.first:
                     return self._walk(here, abel.first, cycles)
-                some = yield from self._jump(abel, z)
-                return some or self._walk(here, here.end, cycles)
+                return self._jump(abel, z) or self._walk(here, here.end, cycles)
         return False
 
-    def _jump(self, abel: AbelSolution | None, z: float) -> Coroutine[bool]:
+    def _jump(self, abel: AbelSolution | None, z: float) -> bool:
         """Jump from z to the end of the panels of Abel's equation, if that takes a cycle."""
         if abel is None or not z < abel.last:
             return False
-        ran, z_after = yield Query(JUMPS, (abel, z))
+        ran, z_after = abel.to_end(z)
         limit_wear = abel.limit_wear
         if ran < 1.0 and not limit_wear:
             return False
@@ -233,28 +230,25 @@ class _Counter:
 
     def _to_the_grazing_wear(self) -> Coroutine[bool]:
         """Skip cycles next to a grazing wear that double precision does not resolve."""
-        point = self._next_grazing()
-        if point is None or point.at - self.wear > 2 * point.nearest:
+        ahead = (stop for stop in self.problem.stops if stop.wear > self.wear * BEYOND)
+        point = next(ahead, None)
+        if point is None or point.wear - self.wear > 2 * point.nearest:
             return False
         # Contact shrinks like the root of the distance: twice the cycles at the present rate.
         rate = (yield from without_feedback(np.array([self.wear])))[0] + TINY
-        ahead, distance = point.at, point.at - self.wear
+        distance = point.wear - self.wear
         cycles_left = np.floor(2 * distance / rate)
         if not FEW <= cycles_left < np.inf:
             return False
-        part = np.array([[self.wear], [ahead], [cycles_left], [distance]])
+        part = np.array([[self.wear], [point.wear], [cycles_left], [distance]])
         self.parts.append(UnresolvedIterates(*part))
-        self.wear, self.done = ahead, self.done + float(cycles_left)
+        self.wear, self.done = point.wear, self.done + float(cycles_left)
         return True
-
-    def _next_grazing(self) -> GrazingPoint | None:
-        """Return the next grazing wear, None if there is none."""
-        stops = self.problem.stops
-        return next((stop for stop in stops if stop.at > self.wear * BEYOND), None)
 
     def _cycle(self) -> bool:
         """Add one cycle, if a sample near by gives it accurately."""
-        sample, limit = self.samples.at(self.wear, self.last_added), self.problem.limit_wear
+        guess, limit = self.last_added * self.last_growth, self.problem.limit_wear
+        sample = self.samples.at(self.wear, guess)
         known = sample.error <= self.problem.size.endpoint_tolerance
         if self.predicted is None and not known:
             return False
@@ -282,7 +276,7 @@ class _Counter:
             remaining = cycles - ahead.done
             if ahead._lacks_a_plan(remaining) or in_a_row == MOST_PREDICTIONS:
                 break
-            in_a_row = 0 if (yield from ahead._along(remaining)) else in_a_row + 1
+            in_a_row = 0 if ahead._along(remaining) else in_a_row + 1
             if in_a_row:
                 ahead._cycle()
         wear = np.array(ahead.predicted)
@@ -300,6 +294,7 @@ class _Counter:
             self.parts.append(cycles)
         self.wear, self.done = cycles.wear[-1], self.done + len(cycles.added)
         self.last_added = cycles.added[-1]
+        self.last_growth = min(cycles.growth[-1], 1.0)
 
 
 def _segments(

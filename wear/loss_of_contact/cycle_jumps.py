@@ -13,12 +13,12 @@ from wear.loss_of_contact.plan import CountProblem
 from wear.loss_of_contact.roundoff import Roundoff, roundoff
 from wear.loss_of_contact.switching import Cycles
 from wear.loss_of_contact.wear_ranges import AbelSolution, alike
-from wear.numerics.floating_point import ROUNDOFF, TINY
+from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import IntArray
 from wear.numerics.rows import stacked
 from wear.orbit.batches import count_error
 from wear.orbit.iterates import Iterates, count_table
-from wear.orbit.transient import SAFETY
+from wear.orbit.transient import SAFETY, Transient
 
 
 class SingleCycles(NamedTuple):
@@ -38,17 +38,13 @@ class SingleCycles(NamedTuple):
 
     def with_error(self, problem: CountProblem, rounding: Roundoff) -> Iterates:
         """Return the cycles with their estimated error, which includes the `rounding` error."""
-        wear, added, local_error, growth = map(np.array, self)
-        # The response to a relative error of the rate: an early error grows, but once the wear
-        # exceeds the roughness the rate hardly grows any more.
+        wear, added, local_error, growth = (np.array([values]) for values in self)
+        # An early error grows, but once the wear exceeds the roughness the rate hardly grows.
         response = added + np.minimum(added, 4 * problem.scale) * growth
-        every = SAFETY * local_error + rounding.of_cycles * response
-        error = [0.0]
-        for more, factor in zip(every.tolist(), self.growth, strict=True):
-            error.append(error[-1] * factor + more)
-        estimate = np.array(error) + ROUNDOFF * wear
+        transient = Transient(wear, local_error, growth, response)
+        error = transient.error(np.zeros(1), rounding.of_cycles[None])
         one, limit = np.zeros((1, 1)), np.array([problem.end])
-        return Iterates(wear[None], estimate[None], None, None, one, limit, one)
+        return Iterates(wear, error, None, None, one, limit, one)
 
 
 class CycleJump(NamedTuple):

@@ -14,15 +14,23 @@ from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 
 WEARS = np.expm1(np.linspace(0.0, 40.0, 400))  # samples, over the scale of the wear
+GRAIN, BLURRED = 4096.0, 256.0  # roundoffs of the wear, times the uncertainty of a grazing wear:
+# the smallest distance from it at which cycles are counted
 TINY_WEARS = 16  # samples of them: roots are found to roundoff of the larger sample
 
 
 class GrazingWear(NamedTuple):
-    """A `wear` (mm) at which contact grazes, and the number of pieces of the cycle `before` it does
-    so."""
+    """A `wear` (mm) at which contact grazes, the number of pieces of the cycle `before` it does so,
+    and the rounding error of the wear, `uncertainty` (mm)."""
 
     wear: float
     before: int
+    uncertainty: float
+
+    @property
+    def nearest(self) -> float:
+        """Return the smallest distance (mm) from it at which cycles are counted."""
+        return max(GRAIN * ROUNDOFF * self.wear, BLURRED * self.uncertainty)
 
 
 def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[GrazingWear]:
@@ -47,7 +55,11 @@ def grazing_wears(model: Model, load: Load, edge: Edge, shift: float) -> list[Gr
     )
     roots = np.where(contact, low, high)
     positive = roots > TOUCH * ROUNDOFF * shift
-    return sorted(map(GrazingWear, roots[positive].tolist(), edge.before[which[positive]].tolist()))
+    roots, peak = roots[positive], load.maximum
+    terms = model.margin_terms(roots, peak + 0.0 * roots)
+    rounding = ROUNDOFF * terms / (np.abs(model.margin_slope(roots, peak)) + TINY)
+    before = edge.before[which[positive]]
+    return sorted(map(GrazingWear, roots.tolist(), before.tolist(), rounding.tolist()))
 
 
 def limit_wear_of(model: Model, load: Load, wear: float) -> LimitWear | None:

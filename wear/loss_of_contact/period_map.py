@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.load import Load
+from wear.load import Constant, Load, Table
 from wear.loss_of_contact.contact import (
     ContactMode,
     ContactPart,
@@ -33,16 +33,20 @@ from wear.loss_of_contact.contact import (
     PhaseInterval,
     wear_in_contact,
 )
+from wear.loss_of_contact.lasting import lasting_contact
 from wear.loss_of_contact.roots import displacement_at, wear_at
 from wear.loss_of_contact.switching import Cycles, Edge, Piece, cycles_of, phase_of
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
+from wear.orbit.period_map import MANY_BREAKPOINTS
 
 TOUCH = 16.0  # roundoffs of the margin from which contact is resolved
 SOON = 1e-6  # of a piece: after that the load goes where it goes
 FROZEN_NODES = 10  # on a piece, where the rate does not feel the wear
+FROZEN_NODES_OF_MANY = 4  # where a cycle has more pieces than MANY_BREAKPOINTS
 FROZEN_PHASE = 1e-5  # of a cycle: where contact begins and ends there
+TOGETHER = 64, 16  # pieces of a long record on which contact lasts
 AT_ONCE = 20_000  # numbers of an array that stays in the processor's cache, with some others
 
 
@@ -58,14 +62,15 @@ class CycleResult(NamedTuple):
 
 class SwitchedPeriodMap(NamedTuple):
     """The map of a cycle of some scenes, of each of which `cycles` has one. Their `pieces` come one
-    after the other, from the numbers `first` (scenes + 1,) on; the `tops` (scenes, pieces) are the
-    highest displacements on each, mm. On a step of contact there are the nodes of the `rule`, which
-    resolve the rate to `tolerance`."""
+    after the other, from the numbers `first` (scenes + 1,) on; `tops` and `bottoms` (scenes,
+    pieces) are the highest and lowest displacements on each, mm. On a step of contact there are the
+    nodes of the `rule`, which resolve the rate to `tolerance`."""
 
     cycles: Cycles
     pieces: Piece
     first: IntArray
     tops: FloatArray
+    bottoms: FloatArray
     rule: Gauss
     tolerance: float
 
@@ -75,9 +80,11 @@ class SwitchedPeriodMap(NamedTuple):
         sound = np.full(len(wear), True)
         evaluations = 0
         few = AT_ONCE // len(self.rule.nodes)
+        straight = isinstance(self.cycles.load, (Table, Constant))
+        sizes = TOGETHER if straight and self.tops.shape[1] > MANY_BREAKPOINTS else ()
         for at in range(0, len(wear), few):
             some = slice(at, at + few)
-            for _, run in self.pieces_from(wear[some], scene[some]):
+            for _, run in self.pieces_from(wear[some], scene[some], sizes):
                 increment[some] += run.added
                 error[some] += run.error
                 sound[some] &= run.sound
@@ -85,27 +92,44 @@ class SwitchedPeriodMap(NamedTuple):
         return CycleResult(increment, error, sound, evaluations)
 
     def pieces_from(
-        self, wear: FloatArray, scene: IntArray
+        self, wear: FloatArray, scene: IntArray, sizes: Sequence[int] = ()
     ) -> Iterator[tuple[Piece, ContactResult]]:
         """Yield the pieces of a cycle with possible contact, in order, and the contact on them: one
-        piece for each wear (k,) at a time, until none has another."""
+        piece for each wear (k,) at a time, until none has another. Where contact by the law lasts
+        over as many pieces as one of the `sizes`, which fall, these are taken at once."""
         added, cycles = np.zeros(len(wear)), self.cycles.take(scene)
-        tops, number = self.tops[scene], np.arange(self.tops.shape[1])
-        after = np.full(len(wear), -1)
+        tops, bottoms, first = self.tops[scene], self.bottoms[scene], self.first[scene]
+        after, alone_until = np.full(len(wear), -1), np.zeros(len(wear), dtype=np.intp)
         while True:
-            ahead = tops > displacement_at(cycles.model, wear + added)[:, None]
-            ahead &= number > after[:, None]
-            which: BoolArray = np.any(ahead, axis=1)
-            if not which.any():
+            needed = displacement_at(cycles.model, wear + added)
+            following = _next(tops > needed[:, None], after + 1)
+            todo = following < tops.shape[1]
+            if not todo.any():
                 return
-            after = np.where(which, np.argmax(ahead, axis=1), len(number))
-            rows = np.flatnonzero(which)
-            piece = self.pieces.take(np.minimum(self.first[scene] + after, self.first[-1] - 1))
-            in_contact, before = cycles.take(which), added[rows]
-            run = self.through(in_contact, piece.take(rows), wear[rows] + before, before)
-            run = run.among(rows, len(wear))
-            added = added + run.added
-            yield piece, run
+            after = following.copy()
+            if sizes:
+                lasting = _next(bottoms <= (needed + cycles.held)[:, None], after) - after
+                lasting[after < alone_until] = 1
+            for size in (*sizes, 1):
+                which = todo & (lasting >= size) if size > 1 else todo
+                rows = np.flatnonzero(which)
+                if len(rows) == 0:
+                    continue
+                own, before = cycles.take(which), added[rows]
+                start = wear[rows] + before
+                if size > 1:
+                    at = (first + following)[rows, None] + np.arange(size)
+                    piece, m = self.pieces.take(at), len(self.rule.nodes)
+                    run = lasting_contact(own, piece, m, self.tolerance, start, before)
+                    alone_until[rows[~run.sound]] = following[rows[~run.sound]] + size
+                    rows, run = rows[run.sound], run.where_sound()
+                    todo[rows], after[rows] = False, following[rows] + size - 1
+                else:
+                    piece = self.pieces.take(np.minimum(first + following, self.first[-1] - 1))
+                    run = self.through(own, piece.take(rows), start, before)
+                run = run.among(rows, len(wear))
+                added = added + run.added
+                yield piece, run
 
     def through(
         self, cycles: Cycles, piece: Piece, wear: FloatArray, before: FloatArray
@@ -122,8 +146,11 @@ class SwitchedPeriodMap(NamedTuple):
         some = _PieceSolver(
             cycles.take(which).on(piece), piece, wear[rows], before[rows], self.rule, self.tolerance
         )
-        follow = some.on_springs if cycles.model.compliant else some.rigid
-        return follow(needed[rows], uncertainty[rows]).among(rows, len(wear))
+        if cycles.model.compliant:
+            run = some.on_springs(needed[rows], uncertainty[rows])
+        else:
+            run = some.rigid(needed[rows])
+        return run.among(rows, len(wear))
 
     def each_without_feedback(self, wear: FloatArray, scene: IntArray) -> FloatArray:
         """Return the increments (mm) of all pieces, one cycle after the other, with the rate frozen
@@ -133,7 +160,8 @@ class SwitchedPeriodMap(NamedTuple):
         begins = np.cumsum(number) - number
         which = self.first[scene[row]] + np.arange(len(row)) - begins[row]
         added = np.zeros(len(row))
-        x, few = gauss(FROZEN_NODES), AT_ONCE // FROZEN_NODES
+        short = self.tops.shape[1] > MANY_BREAKPOINTS
+        x, few = gauss(FROZEN_NODES_OF_MANY if short else FROZEN_NODES), AT_ONCE // FROZEN_NODES
         for at in range(0, len(row), few):
             part = slice(at, at + few)
             added[part] = self._frozen(wear[row[part]], scene[row[part]], which[part], x)
@@ -176,13 +204,21 @@ def switched_period_map(
         )
     )
     number = np.array([len(edge.pieces.closes) for edge in edges])
-    tops = np.full((len(edges), np.max(number)), -np.inf)
-    tops[np.arange(tops.shape[1]) < number[:, None]] = pieces.top
+    tops, bottoms = np.full((2, len(edges), np.max(number)), -np.inf)
+    own = np.arange(tops.shape[1]) < number[:, None]
+    tops[own], bottoms[own] = pieces.top, np.minimum(pieces.heights[0], pieces.heights[-1])
     first, cycles = (
         np.cumsum([0, *number.tolist()]),
         cycles_of(models, loads, [edge.levels for edge in edges]),
     )
-    return SwitchedPeriodMap(cycles, pieces, first, tops, radau(nodes), tolerance)
+    return SwitchedPeriodMap(cycles, pieces, first, tops, bottoms, radau(nodes), tolerance)
+
+
+def _next(marked: BoolArray, start: IntArray) -> IntArray:
+    """Return the first `marked` column (k, n) from `start` (k,) on, n where there is none."""
+    marked = marked & (np.arange(marked.shape[1]) >= start[:, None])
+    first: IntArray = np.where(marked.any(axis=1), np.argmax(marked, axis=1), marked.shape[1])
+    return first
 
 
 def margin_roundoff(model: Model, peak: FloatArray | float, wear: FloatArray) -> FloatArray:
@@ -217,7 +253,7 @@ class _PieceSolver:
         self.added, self.error = np.zeros((2, len(self.u)))
         self.sound, self.over = np.full(len(self.u), True), np.full(len(self.u), False)
 
-    def rigid(self, needed: FloatArray, uncertainty: FloatArray) -> ContactResult:
+    def rigid(self, needed: FloatArray) -> ContactResult:
         """Return the piece on a rigid support; contact is made under displacements (mm) that are
         `needed` (k,)."""
         piece, cycles = self.piece, self.cycles

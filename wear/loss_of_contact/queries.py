@@ -15,10 +15,10 @@ import numpy as np
 from wear.loss_of_contact.period_map import CycleResult, SwitchedPeriodMap
 from wear.numerics.gauss import FloatArray
 
-# Cycles with a frozen rate, numbers of cycles to the end of panels, ranges of wear with their
-# solutions of Abel's equation; cycles for the result, and finer ones for its error. The cheap kinds
-# come first, so that queries of more scenes for the others come together.
-FROZEN_CYCLES, JUMPS, WEAR_RANGES, CYCLES, FINER_CYCLES = range(5)
+# Cycles with a frozen rate, ranges of wear with their solutions of Abel's equation; cycles for the
+# result, and finer ones for its error. The cheap kinds come first, so that queries of more scenes
+# for the others come together.
+FROZEN_CYCLES, WEAR_RANGES, CYCLES, FINER_CYCLES = range(4)
 
 
 class Query(NamedTuple):

@@ -17,6 +17,7 @@ from wear.load import Constant, Harmonics, Load, Sine, Table, Waves, waves
 from wear.model import Model, stacked
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.rows import take
 
 PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a part of the cycle: the distance of a sample from its ends
@@ -98,7 +99,9 @@ class Cycles(NamedTuple):
         if which.dtype == bool and which.all():
             return self
         load, of_one = self.load, isinstance(self.period, float)
-        if isinstance(load, Lines) or (isinstance(load, Waves) and not of_one):
+        if isinstance(load, Lines):
+            load = take(load, which)
+        elif isinstance(load, Waves) and not of_one:
             load = load.take(which)
         if of_one:
             return self._replace(load=load)
@@ -130,10 +133,6 @@ class Lines(NamedTuple):
     begin: FloatArray
     height: FloatArray
     rise: FloatArray
-
-    def take(self, which: BoolArray | IntArray) -> Lines:
-        """Return those of some of the cycles."""
-        return Lines(self.begin[which], self.height[which], self.rise[which])
 
     def __call__(self, phase: FloatArray) -> FloatArray:
         """Return the displacement (mm) at phases (..., k)."""

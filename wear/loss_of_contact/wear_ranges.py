@@ -18,7 +18,7 @@ from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
-from wear.orbit.iterates import CountTable, cell_of, count_table, joined
+from wear.orbit.iterates import CountTable, count_table
 from wear.orbit.panels import CHECKS
 from wear.orbit.period_map import Settings
 
@@ -54,6 +54,15 @@ class AbelSolution(NamedTuple):
         """Return the last z."""
         return float(self.table.ends[-1])
 
+    def to_end(self, z: float) -> tuple[float, float]:
+        """Return the number of whole cycles from z to the end of the panels, and z after them; up
+        to rounding where wear tends to its limit there."""
+        begin = float(self.table.cycles_at(np.array([z]))[0])
+        remaining = self.table.last_cycles - begin
+        cycles = math.floor(remaining) if self.limit_wear is None else math.ceil(remaining)
+        after, _ = self.table.state_after(np.array([begin + cycles]))
+        return float(cycles), float(after[0])
+
 
 class WearRange(NamedTuple):
     """A range of wear on which the increments are known by their `series`, up to `end` in z; with
@@ -62,22 +71,6 @@ class WearRange(NamedTuple):
     series: IncrementSeries
     end: float
     abel: AbelSolution | None
-
-
-def cycles_to_end(starts: Sequence[tuple[AbelSolution, float]]) -> list[tuple[float, float]]:
-    """Return the number of whole cycles from each z to the end of its panels, and the z after them;
-    up to rounding where wear tends to its limit there."""
-    solutions, z = [solution for solution, _ in starts], np.array([z for _, z in starts])
-    tables = [solution.table for solution in solutions]
-    table, first = joined(tables), np.cumsum([0, *(len(own.u) for own in tables[:-1])])
-    inside = [cell_of(own.u, at) for own, at in zip(tables, z, strict=True)]
-    begin = table.cycles_at(z, first + inside)
-    remaining = np.array([own.last_cycles for own in tables]) - begin
-    to_limit = np.array([solution.limit_wear is not None for solution in solutions])
-    cycles = np.where(to_limit, np.ceil(remaining), np.floor(remaining))
-    inside = [cell_of(own.cycles, n) for own, n in zip(tables, begin + cycles, strict=True)]
-    after, _ = table.state_after(begin + cycles, first + inside)
-    return list(zip(cycles.tolist(), after.tolist(), strict=True))
 
 
 def alike(panels: Mapping[int, abel.Density]) -> list[list[int]]:

@@ -12,7 +12,6 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -150,11 +149,6 @@ def count_table(
     truncation = np.max(np.abs(legendre[-2:]), axis=0)
     series = np.stack([coefficients(powers, legendre.T) for powers in _powers(NODES)], axis=1)
     return CountTable(u.ravel(), offset.ravel(), cycles, length.ravel(), number, truncation, series)
-
-
-def joined(tables: Sequence[CountTable]) -> CountTable:
-    """Return the cells of several scenes, one after the other."""
-    return CountTable(*(np.concatenate(each, axis=-1) for each in zip(*tables, strict=True)))
 
 
 def nonzero(growth: FloatArray) -> FloatArray:

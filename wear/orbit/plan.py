@@ -32,32 +32,48 @@ MOST_LOG = 650.0  # logarithm of a density whose exponential is finite
 MOST_PLANNED = 150  # panels of a scene
 
 
+class StatesAhead(NamedTuple):
+    """States `u` (s, k) from the start of scenes (s,) on, equally far apart in y = ln(u + scale),
+    up to their limits; `y` (s, k) is measured from the start."""
+
+    y: FloatArray
+    u: FloatArray
+    scale: FloatArray
+
+    def after(self, added: FloatArray, cycles: FloatArray) -> FloatArray:
+        """Return the approximate states after `cycles` (s,), the last ones if these lead beyond;
+        a cycle has `added` (s, k) at each state."""
+        density = -np.log(np.log1p(added / (self.u + self.scale[:, None])) + TINY)
+        # Between two points the density is taken as exponential in y.
+        rise, step, longest = nonzero(np.diff(density, axis=1)), self.y[:, 1], self.y[:, -1]
+        first = np.exp(density[:, :-1]) * step[:, None] / rise
+        counts = np.cumsum(first * np.expm1(rise), axis=1)
+        part = np.minimum(np.sum(counts < cycles[:, None], axis=1), STEPS - 1)
+        at = (np.arange(len(cycles)), part)
+        missing = cycles - np.where(part > 0, counts[at[0], part - 1], 0.0)
+        share = np.log1p(missing / first[at]) / rise[at]
+        # Where the states end before the cycles do, the share is no number.
+        y = np.fmin(self.y[at] + share * step, longest)
+        end: FloatArray = self.u[:, 0] + (self.u[:, 0] + self.scale) * np.expm1(y)
+        return end
+
+
+def states_ahead(start: FloatArray, scale: FloatArray, limit: FloatArray) -> StatesAhead:
+    """Return states ahead of the `start` (s,)."""
+    longest = np.minimum(LONGEST, np.log1p((limit - start) / (start + scale)))
+    y = (longest / STEPS)[:, None] * np.arange(STEPS + 1)
+    return StatesAhead(y, start[:, None] + (start + scale)[:, None] * np.expm1(y), scale)
+
+
 def look_ahead(problem: Problem, request: Request) -> FloatArray:
     """Return the states (s,) that panels must reach: approximately those after the requested
     cycles, with the rate frozen over each cycle."""
-    start, scale, limit = request.start, problem.scale, problem.limit
-    begin = (start + scale)[:, None]
-    longest = np.minimum(LONGEST, np.log1p((limit - start) / begin[:, 0]))[:, None]
-    ahead = longest / STEPS * np.arange(STEPS + 1)
-    u = start[:, None] + begin * np.expm1(ahead)
-    added = np.empty_like(u)
+    ahead = states_ahead(request.start, problem.scale, problem.limit)
+    added = np.empty_like(ahead.u)
     for which, edges in by_size(problem.breakpoints):
         maps = period_map(problem.take(which), edges, AHEAD_NODES)
-        added[which] = maps.increment_without_feedback(u[which])
-    density = -np.log(np.log1p(added / (u + scale[:, None])) + TINY)
-    # Between two points the density is taken as exponential in y = ln(u + scale).
-    rise = nonzero(np.diff(density, axis=1))
-    first = np.exp(density[:, :-1]) * (longest / STEPS) / rise
-    counts = np.cumsum(first * np.expm1(rise), axis=1)
-    wanted = MARGIN * np.maximum(request.cycles, LEAST)
-    part = np.minimum(np.sum(counts < wanted[:, None], axis=1), STEPS - 1)
-    at = (np.arange(len(start)), part)
-    missing = wanted - np.where(part > 0, counts[at[0], part - 1], 0.0)
-    share = np.log1p(missing / first[at]) / rise[at]
-    # Where the states end before the cycles do, the share is no number.
-    y = np.fmin(ahead[at] + share * longest[:, 0] / STEPS, longest[:, 0])
-    end: FloatArray = start + begin[:, 0] * np.expm1(y)
-    return end
+        added[which] = maps.increment_without_feedback(ahead.u[which])
+    return ahead.after(added, MARGIN * np.maximum(request.cycles, LEAST))
 
 
 class PanelPlan(NamedTuple):

@@ -7,8 +7,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from wear.numerics.gauss import FloatArray, IntArray
-from wear.numerics.rows import take
+from wear.numerics.gauss import FloatArray
 from wear.orbit.period_map import Equation, Selection
 
 MOST_EVALUATIONS = 2e7  # of a scene with up to MANY breakpoints, else in proportion
@@ -60,10 +59,6 @@ class Request(NamedTuple):
     def late(self) -> bool:
         """Return whether the deadline has passed."""
         return time.monotonic() > self.deadline
-
-    def take(self, which: IntArray) -> Request:
-        """Return some of the scenes."""
-        return take(self, which)
 
 
 def most_evaluations(problem: Problem) -> FloatArray:

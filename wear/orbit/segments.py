@@ -18,6 +18,7 @@ import numpy as np
 
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.rows import take
 from wear.orbit.batches import Batches
 from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost, Problem, Request, most_evaluations
@@ -170,7 +171,7 @@ def _segments(
         for which, asked in todo:
             batches = Batches(problem.take(which), asked, rtol, keep)
             for rows, iterates in batches.counts():
-                scenes, remaining = which[rows], asked.take(rows)
+                scenes, remaining = which[rows], take(asked, rows)
                 begins = cycles[scenes] - remaining.cycles
                 zero = np.zeros(len(rows))
                 segments.append(Segment(scenes, iterates, begins, zero, zero))
