@@ -22,11 +22,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from ..claims import FirstZero
 from ..laws import GENERAL
 from ..symbols import DATA, symbol, t
-from .models import Model, dependencies, forms_of, quantities
-from .truth import truth
-from .values import field_of
+from .balls import UndecidedError
+from .models import Model, dependencies, forms_of, quantities, slope_between_jumps
+from .values import field_of, truth
 
 T, U, V = symbol("T"), symbol("U"), symbol("V")
 _ORDINARY = ("1", "1", "1", "1/2", "2", "3/4", "3/2", "3", "2/3")
@@ -202,13 +203,30 @@ def _model(draft: _Draft) -> Model | None:
     states = {key.expr for key in draft.values if isinstance(key, sp.Derivative)}
     starts = {key for key in draft.values if key.args == (0,) and key.func(t) not in states}
     values = {key: value for key, value in draft.values.items() if key not in starts}
-    model = Model(values, draft.implicit)
     try:
+        if draft.implicit:
+            values |= _as_state(draft.implicit, values.pop(draft.implicit), values)
+        model = Model(values)
         if model.states:
             _ = model.motion  # raises if there is none
     except (ArithmeticError, RecursionError, ValueError):
         return None
     return model
+
+
+def _as_state(
+    field: sp.Expr, image: sp.Expr, others: dict[sp.Expr, sp.Expr]
+) -> dict[sp.Expr, sp.Expr]:
+    """Return the rate and the start of a field ``y = G(y)``: y' = G_t + G_y y'."""
+    rate, slope, start = field.diff(t), sp.Dummy(), sp.Dummy()
+    inlined = Model({**others, rate: rate}).inlined(image)
+    if inlined.has(sp.floor):
+        raise UndecidedError("an implicit field that jumps")
+    whole = slope_between_jumps(inlined).xreplace({rate: slope})
+    return {
+        rate: whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope)),
+        field.subs(t, 0): FirstZero(start - inlined.xreplace({field: start}), start),
+    }
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:

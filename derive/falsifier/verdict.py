@@ -18,13 +18,13 @@ import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
 
-from ..claims import Drift, Term
+from ..claims import Term
 from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, draw_model, slides_fast, slopes_over_data, with_law
-from .expansion import ExpansionCoefficient
+from .expansion import ExpansionTerm
 from .models import Model, dependencies, quantities
-from .truth import truth
+from .values import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 _T, _TAU = symbol("T"), symbol("tau")
@@ -138,10 +138,7 @@ class _Trial:
         The result is kept for further claims, until the fields are known at more times.
         """
         key = tuple(given), free, frozenset(self._varied()), self.model.times
-        known = self.model.satisfied
-        if key not in known:
-            known[key] = self._fits(given, free)
-        return known[key]
+        return self._fits(given, free)
 
     def _fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool | None:
         fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
@@ -246,19 +243,11 @@ def _in_time(
 
 
 def _unscaled(relation: sp.Basic) -> sp.Basic:
-    """Write fields of scaled time as fields of time, and terms as expansion coefficients."""
-    terms = {term: _expanded(term) for term in relation.atoms(Term)}
-    hidden = {term: sp.Dummy() for term in terms}
+    """Write fields and terms of expansions in scaled time as those of time."""
+    terms = {term: ExpansionTerm(term, sp.S.Zero) for term in relation.atoms(Term)}
     fields = {f: f.func(t) for f in relation.atoms(AppliedUndef) if f.args == (_TAU,)}
     rates = {f.diff(_TAU): _T * now.diff(t) for f, now in fields.items()}
-    written = relation.xreplace(hidden).xreplace(rates).xreplace(fields).xreplace({_TAU: t / _T})
-    return written.xreplace({dummy: terms[term] for term, dummy in hidden.items()})
-
-
-def _expanded(term: Term) -> ExpansionCoefficient:
-    n, *law = term.args
-    order, phase = (sp.S.NegativeOne, sp.S.Zero) if isinstance(term, Drift) else (sp.S.Zero, t / _T)
-    return ExpansionCoefficient(n, order, *law, phase)
+    return relation.xreplace(rates).xreplace({**terms, **fields}).xreplace({_TAU: t / _T})
 
 
 def domain(quantity: sp.Expr) -> sp.Basic:
