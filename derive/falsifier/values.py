@@ -171,12 +171,12 @@ def _expansion_term(expr: ExpansionTerm) -> Value:
     def value(moment: Moment) -> arb:
         drift, waves = _expansion(moment.model, expr.args[0])
         if isinstance(expr.args[0], Drift):
-            term = size = drift[number]
+            term = drift[number]
         else:
             phase = float(ball(moment.time / moment.model.constant(_T)).mid()) % 1
             term = at_phase(waves[number], phase, order)
-            size = abs(waves[number]).max() * (number * tau) ** order
-        return arb(float(term), 1e-9 * float(abs(size)))
+        size = abs(drift[number]) + abs(waves[number]).max() * (number * tau) ** order
+        return arb(float(term), 1e-9 * float(size))
 
     return value
 
