@@ -29,7 +29,7 @@ NOTHING = arb(10) ** -200
 
 _HALVINGS, _AGREEING = 24, arb(10) ** -12
 """Greatest number of bisections of an interval of integration; relative tolerance of two rules."""
-_HALVINGS_OF_ZERO = 110
+_HALVINGS_OF_ZERO = 60
 
 
 class UndefinedError(ArithmeticError):
@@ -71,7 +71,8 @@ def real(function: Callable[..., arb], *parameters: Number) -> Callable[[Number]
             if all(function(end, *parameters).is_nan() for end in (at.lower(), at.upper())):
                 raise UndefinedError(f"{function.__name__} outside its domain")
             raise UndecidedError(f"{function.__name__} at the end of its domain")
-        return fmpq(result.unique_fmpz()) if result.is_integer() else result
+        whole = result.unique_fmpz() if result.is_exact() else None
+        return result if whole is None else fmpq(whole)
 
     return value
 

@@ -21,11 +21,13 @@ from functools import cache, lru_cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
+from sympy.solvers.solveset import NonlinearError, linear_coeffs
 
 from ..claims import FirstZero
 from ..laws import GENERAL
 from ..symbols import DATA, symbol, t
 from .balls import UndecidedError
+from .expansion import ExpansionTerm
 from .models import Model, dependencies, forms_of, quantities, slope_between_jumps
 from .values import field_of, truth
 
@@ -34,7 +36,7 @@ _ORDINARY = ("1", "1", "1", "1/2", "2", "3/4", "3/2", "3", "2/3")
 _EXTREME = ("1/4", "1/1000", "1000", "1/8", "20", "1000000", "1/1000000")
 WILD = 5
 """One of so many seeds draws extreme values too."""
-_CLOSED = (sp.Limit, sp.Integral, sp.Subs)
+_CLOSED = (sp.Limit, sp.Integral, sp.Subs, ExpansionTerm)
 
 
 _PHI, _RATIO = GENERAL.phi.func, sp.Dummy("r", real=True)
@@ -332,31 +334,22 @@ def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
     None if it is not, or if the value depends on the quantity at another time.
     """
     left, right = equation.args
-    if quantity in (left, right) and not (other := right if left == quantity else left).has(
-        quantity
-    ):
+    other = right if quantity == left else left
+    if quantity in (left, right) and not other.has(quantity):
         value = other
     else:
-        dummy = sp.Dummy()
-        residual = (left - right).xreplace({quantity: dummy})
-        if not _polynomial(residual, dummy):
+        try:
+            slope, rest = linear_coeffs(left - right, quantity)
+        except NonlinearError:
             return None
-        slope = sp.diff(residual, dummy)
-        if slope == 0 or slope.has(dummy):
+        if slope == 0:
             return None
-        value = -residual.xreplace({dummy: sp.S.Zero}) / slope
+        value = -rest / slope
     known = quantity.expr if isinstance(quantity, sp.Derivative) else None
     field = (known or quantity).func
     if quantity.args and any(f.func == field and f != known for f in value.atoms(AppliedUndef)):
         return None
     return value
-
-
-def _polynomial(expr: sp.Expr, unknown: sp.Symbol) -> bool:
-    """Return whether an unknown is only in sums and products."""
-    if not expr.has(unknown) or expr == unknown:
-        return True
-    return isinstance(expr, (sp.Add, sp.Mul)) and all(_polynomial(a, unknown) for a in expr.args)
 
 
 def slides_fast(seed: int) -> bool:

@@ -37,6 +37,12 @@ class ExpansionTerm(sp.Expr):
     is_real = True
     is_commutative = True
 
+    @property
+    def free_symbols(self) -> set[sp.Basic]:
+        """Return the symbols, time only for an oscillation: a drift rests on no phase."""
+        names: set[sp.Basic] = self.args[0].free_symbols
+        return names - {t} if isinstance(self.args[0], Drift) else names
+
     def _eval_derivative(self, variable: sp.Symbol) -> sp.Expr:
         term, order = self.args
         if isinstance(term, Drift) or variable != t:

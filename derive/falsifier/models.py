@@ -43,6 +43,7 @@ _TRUSTED = arb(10) ** -12
 _UNMOVED = arb(10) ** -6
 """Relative width of a constant up to which a datum is known to have no influence on it."""
 
+
 @cache
 def quantities(expr: sp.Basic) -> frozenset[sp.Expr]:
     """Return the data and the fields in an expression, the fields at time t."""
@@ -190,8 +191,12 @@ class Model:
         """Return the value of a datum or of a field, or a derivative of it, at the start."""
         with ctx.workprec(BITS):
             if quantity.args == (t,):
-                return float(ball(self.field(quantity, ZERO, order)).mid())
-            return float(ball(compiled(quantity)(Moment(self))).mid())
+                value = ball(self.field(quantity, ZERO, order))
+            else:
+                value = ball(compiled(quantity)(Moment(self)))
+        if value.rad() > _TRUSTED * abs(value):
+            raise UndecidedError(f"too few digits of {quantity}")
+        return float(value.mid())
 
     def limit(self, expr: sp.Limit) -> arb:
         """Return a limit with an error from its trend, at the latest times that resolve it."""
@@ -266,16 +271,13 @@ class Model:
         if not self.states:
             return [self._window(10**k) for k in (4, 8, 16, 32, 64)]
         period = float(arb(self.period))
-        if far == _FARTHEST and not self.motion.may_reach(period * far * 2):
-            raise UndecidedError("the fields are not known for long enough")
         periods = min(self.motion.integrate_to(period * far * 5) / period, 5 * far) / 4
-        steps = (4, 3, 2, 1, 0)
         if periods > far / 2:  # the logarithms of the times form a geometric sequence
-            return [self._window(int(periods**power), power) for k in steps
-                    for power in (0.5 ** (k / 2),)]  # fmt: skip
+            powers = [0.5 ** (k / 2) for k in (4, 3, 2, 1, 0)]
+            return [self._window(int(periods**power), power) for power in powers]
         if periods < 25 or far == _FARTHEST:
             raise UndecidedError("the fields are not known for long enough")
-        return [self._window(int(periods / 2**k)) for k in steps]
+        return [self._window(int(periods / 2**k)) for k in (4, 3, 2, 1, 0)]
 
     def _window(self, periods: int, power: float = 1.0) -> list[fmpq]:
         factors = ((int(periods * f**power), phase) for f, phase in _FACTORS)

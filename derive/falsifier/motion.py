@@ -42,7 +42,7 @@ _GAUSS = np.polynomial.legendre.leggauss(NODES // 2)
 """Exact for the polynomials of the rates."""
 _SWEEPS, _FEW, _HUGE = 40, 14, 1e200
 _SETTLED, _LEFT_OUT = 1e-14, 1e-13
-_FIRST, MOST_STEPS = 80, 400
+MOST_STEPS = 400
 
 
 class _Step(NamedTuple):
@@ -100,12 +100,6 @@ class Motion:
         while self.reached <= time and not self._stuck:
             self._advance()
         return self.reached
-
-    def may_reach(self, time: float) -> bool:
-        """Return whether the first steps are wide enough to expect that a time is reached."""
-        while self.reached <= time and len(self._steps) < _FIRST and not self._stuck:
-            self._advance()
-        return self.reached > time * _FIRST / MOST_STEPS * 1e-3
 
     def _advance(self) -> None:
         begin, step = self.reached, self.width

@@ -98,14 +98,10 @@ def compiled(expr: sp.Basic) -> Value:
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
-def field_of(expr: AppliedUndef) -> sp.Expr:
-    """Return a field at time t, always the same object for fast lookups."""
-    return _at_time_t(expr.func)
-
-
 @cache
-def _at_time_t(function: sp.FunctionClass) -> sp.Expr:
-    return function(t)
+def field_of(expr: AppliedUndef) -> sp.Expr:
+    """Return a field at time t."""
+    return expr.func(t)
 
 
 def _symbol(name: sp.Symbol) -> Value:
@@ -250,14 +246,15 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
     left, right = relation.args
     if right == sp.oo and relation.rel_op in ("<", "<="):
         return True
-    if isinstance(relation, (sp.Eq, sp.Ne)):
+    if isinstance(relation, sp.Ne) and relation.has(sp.Limit):
+        return fuzzy_not(holds_at(sp.Eq(left, right, evaluate=False), moment))
+    if isinstance(relation, sp.Eq):
         left, right = sorted(relation.args, key=lambda side: not isinstance(side, sp.Limit))
         if isinstance(left, sp.Limit):
-            holds = _tends(left, right, moment)
-            return holds if isinstance(relation, sp.Eq) else fuzzy_not(holds)
+            return _tends(left, right, moment)
         if right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
-            zero = fuzzy_or(holds_at(relation.func(f, 0, evaluate=False), moment) for f in left.args)
-            return zero if isinstance(relation, sp.Eq) else fuzzy_not(zero)
+            zeros = (sp.Eq(factor, 0, evaluate=False) for factor in left.args)
+            return fuzzy_or(holds_at(zero, moment) for zero in zeros)
     terms = [[compiled(term)(moment) for term in sp.Add.make_args(side)] for side in (left, right)]
     gap = sum(terms[0], ZERO) - sum(terms[1], ZERO)
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):

@@ -150,7 +150,8 @@ def falsify(
     seeds = sorted(range(draws), key=lambda seed: dropped != sp.false and slides_fast(seed))
     for model, wanted in _models((*hypotheses, dropped, claim), imposed, seeds):
         *given, without, claimed = wanted
-        fits = _fits(model, wanted, model.times)
+        about = quantities(sp.Tuple(*wanted)), _varied(wanted)
+        fits = _fits(model, tuple(given), *about, model.times)
         doubtful += fits is None
         if dropped == sp.false and models - decided + doubtful > draws // 3:
             break  # further models would be as undecided
@@ -159,7 +160,7 @@ def falsify(
         models += 1
         outcome = truth(claimed, model)
         if outcome.holds is False:
-            if not _fits(model, wanted, model.times):
+            if not _fits(model, tuple(given), *about, model.times):
                 continue  # now that the fields are known for longer
             named = without.args if isinstance(without, _ORDERS) else ()
             drawn = _described(model, given, sp.Tuple(without, claimed), named)
@@ -177,22 +178,32 @@ def _without_domain(relation: sp.Basic, quantity: sp.Expr) -> sp.Basic:
     return relation.replace(quantity.func, sp.Function(quantity.func.__name__, real=True))
 
 
-@lru_cache(maxsize=1000)
-def _fits(model: Model, relations: Relations, times: tuple[fmpq, ...]) -> bool | None:
-    """Return whether a model satisfies all but the last two of the relations, at these times,
-    and the domains of the quantities in all of them."""
-    given = relations[:-2]
+@lru_cache(maxsize=300)
+def _fits(
+    model: Model,
+    given: Relations,
+    about: frozenset[sp.Expr],
+    varied: frozenset[sp.Symbol],
+    times: tuple[fmpq, ...],  # noqa: ARG001 - those of the model, a part of the key of the cache
+) -> bool | None:
+    """Return whether a model satisfies the hypotheses and the domains of quantities.
+
+    It may be asked again for further claims, and when the fields are known at more times.
+    """
     fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
-    bounded = quantities(sp.Tuple(*relations)) - fixed
 
     def rests_on_a_limit(relation: sp.Basic) -> bool:  # whose evaluation is expensive
         values = (model.values.get(q, q) for q in quantities(relation))
         return sp.Tuple(relation, *values).has(sp.Limit)
 
-    domains = (d for d in map(domain, bounded) if d is not None)
+    domains = (d for d in map(domain, about - fixed) if d is not None)
     demands = sorted((*given, *domains), key=rests_on_a_limit)
     pairs = [(demand, model) for demand in demands]
-    pairs += [(demand, near) for near in _neighbours(model, relations) for demand in given]
+    for datum in varied:  # the hypotheses hold nearby too, so that they may be differentiated
+        value = model.values.get(datum)
+        if value is not None and value.is_Rational:
+            near = model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
+            pairs += [(demand, near) for demand in given]
     doubtful = False
     for demand, where in pairs:
         outcome = truth(demand, where)
@@ -202,16 +213,10 @@ def _fits(model: Model, relations: Relations, times: tuple[fmpq, ...]) -> bool |
     return None if doubtful else True
 
 
-def _neighbours(model: Model, relations: Relations) -> Iterator[Model]:
-    """Yield models with a datum slightly changed, for relations with derivatives by data.
-
-    The hypotheses must hold there too.
-    """
+def _varied(relations: Relations) -> frozenset[sp.Symbol]:
+    """Return the data by which relations have derivatives."""
     slopes = frozenset[sp.Expr]().union(*map(slopes_over_data, relations))
-    for datum in {variable for slope in slopes for variable in slope.variables}:
-        value = model.values.get(datum)
-        if value is not None and value.is_Rational:
-            yield model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
+    return frozenset(variable for slope in slopes for variable in slope.variables)
 
 
 def _described(
