@@ -323,11 +323,12 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
         latest = {limit: sp.Dummy() for limit in side.atoms(sp.Limit)}
         at = moment
         try:
-            for limit, name in latest.items():
-                at = at.at(name, moment.model.latest(limit))
-            values.append(("towards " * bool(latest), compiled(side.xreplace(latest))(at)))
+            with ctx.workprec(BITS):
+                for limit, name in latest.items():
+                    at = at.at(name, moment.model.latest(limit))
+                values.append(("towards " * bool(latest), compiled(side.xreplace(latest))(at)))
         except (ArithmeticError, ValueError):
-            values.append(("", "oo" if side.is_infinite else "?"))
+            values.append(("", str(side) if side.is_infinite else "?"))
     for digits in range(6, 18):
         left, right = (_shown(value, digits) for _, value in values)
         if left != right:

@@ -21,7 +21,7 @@ import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
 
-from ..claims import Asymptotic, Claim, Predicate, Property, SlowEquation, Term
+from ..claims import Asymptotic, Claim, FirstZero, Predicate, Property, SlowEquation, Term
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, domain
 from ..symbols import symbol, t
@@ -135,25 +135,26 @@ def falsify(
     claim: sp.Basic,
     draws: int = DRAWS,
     enough: int = ENOUGH,
-    dropped: sp.Basic = sp.false,
+    dropped: sp.Basic | None = None,
 ) -> TrialResult:
     """Search for a model that satisfies the hypotheses and not the claim.
 
     The models violate ``dropped``, a hypothesis or the domain of a quantity.
     """
-    relations = (*(h for h in hypotheses if h != dropped), dropped, claim)
+    kept = (h for h in hypotheses if h != dropped)
+    relations = (*kept, sp.false if dropped is None else dropped, claim)
     if isinstance(dropped, _ORDERS) and dropped == domain(dropped.lhs):
         relations = tuple(_without_domain(relation, dropped.lhs) for relation in relations)
-    *hypotheses, dropped, claim = relations
-    imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
+    *others, absent, _ = relations
+    imposed = (*((absent.negated,) if isinstance(absent, _ORDERS) else ()), *others)
     models = decided = doubtful = 0
-    seeds = sorted(range(draws), key=lambda seed: dropped != sp.false and slides_fast(seed))
-    for model, wanted in _models((*hypotheses, dropped, claim), imposed, seeds):
+    seeds = sorted(range(draws), key=lambda seed: dropped is not None and slides_fast(seed))
+    for model, wanted in _models(relations, imposed, seeds):
         *given, without, claimed = wanted
         about = quantities(sp.Tuple(*wanted)), _varied(wanted)
         fits = _fits(model, tuple(given), *about, model.times)
         doubtful += fits is None
-        if dropped == sp.false and models - decided + doubtful > draws // 3:
+        if dropped is None and models - decided + doubtful > draws // 3:
             break  # further models would be as undecided
         if not fits or truth(without, model).holds is not False:
             continue
@@ -236,7 +237,7 @@ def _described(
         value = model.values.get(name)
         if name in named and value is not None:
             value = model.inlined(value)
-        if value is None or value.atoms(AppliedUndef, sp.Derivative, sp.Limit):
+        if value is None or value.has(AppliedUndef, sp.Derivative, sp.Limit, FirstZero):
             continue
         if name.args or value.is_Rational:
             drawn.append(sp.Eq(name, value, evaluate=False))
