@@ -33,7 +33,7 @@ from .values import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 _T, _TAU, _CYCLES = symbol("T"), symbol("tau"), symbol("N")
-DRAWS, _FEW, _SEEDS = 60, 12, 60
+DRAWS, _FEW, _SEEDS = 60, 12, 300
 """Number of seeds for relations, for a judgement, for one without a hypothesis."""
 ENOUGH = 12
 """Number of models after which relations that hold in all of them are accepted."""
