@@ -10,7 +10,7 @@ from typing import NamedTuple
 from .claims import Predicate
 from .coq.steps import proved_by_coq
 from .dimensions import dimension_fault
-from .falsifier.judgements import counterexample_without, try_on_models
+from .falsifier.verdict import counterexample_without, try_on_models
 from .kernel import Judgement, replay_fault
 from .rules.assumption import Assume
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from .claims import Predicate
 from .equations import Equation
-from .falsifier.judgements import counterexample_without
+from .falsifier.verdict import counterexample_without
 from .hypotheses import Hypothesis
 from .kernel import Judgement
 from .typeset.display import inline

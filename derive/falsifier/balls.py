@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache, reduce
 from itertools import pairwise
-from math import isqrt
 from operator import mul
 from typing import Any
 
 import sympy as sp
 from flint import arb, fmpq
+from flint.utils.flint_exceptions import DomainError
 
 Number = Any  # fmpq or arb, which mix
 BITS = 320
@@ -27,10 +27,9 @@ ZERO = fmpq(0)
 NOTHING = arb(10) ** -200
 """A ball around 0 narrower than this, which only a higher precision gives, is 0."""
 
-
 _HALVINGS, _AGREEING = 24, arb(10) ** -12
 """Greatest number of bisections of an interval of integration; relative tolerance of two rules."""
-_HALVINGS_OF_ZERO = 110
+_HALVINGS_OF_ZERO = 60
 
 
 class UndefinedError(ArithmeticError):
@@ -41,7 +40,7 @@ class UndecidedError(ArithmeticError):
     """The balls are too wide, or the model lacks the data to decide."""
 
 
-class NoValueError(UndecidedError):
+class NoValueError(ArithmeticError):
     """The model itself has no value for a quantity."""
 
 
@@ -59,17 +58,34 @@ def fraction(expr: sp.Expr) -> fmpq:
     return fmpq(int(exact.p), int(exact.q))
 
 
+def real(function: Callable[..., arb], *parameters: Number) -> Callable[[Number], Number]:
+    """Return a function of a number from one of balls; integers stay exact.
+
+    It has no value at a ball if it has none at both ends, since its domain is an interval.
+    """
+
+    def value(x: Number) -> Number:
+        at = arb(x)
+        result = function(at, *parameters)
+        if result.is_nan():
+            if all(function(end, *parameters).is_nan() for end in (at.lower(), at.upper())):
+                raise UndefinedError(f"{function.__name__} outside its domain")
+            raise UndecidedError(f"{function.__name__} at the end of its domain")
+        whole = result.unique_fmpz() if result.is_exact() else None
+        return result if whole is None else fmpq(whole)
+
+    return value
+
+
+_exponential, _logarithm, _root = map(real, (arb.exp, arb.log, arb.sqrt))
+
+
 def _divided(a: Number, b: Number) -> Number:
     if b == 0:
         raise UndefinedError("division by zero")
     if isinstance(b, arb) and b.contains(0):
         raise UndecidedError("a possible division by zero")
     return a / b
-
-
-def _require_positive(x: Number, operation: str) -> None:
-    if not arb(x) > 0:
-        raise UndefinedError(operation) if arb(x) <= 0 else UndecidedError(operation)
 
 
 def _power(base: Number, exponent: Number) -> Number:
@@ -85,27 +101,15 @@ def _power(base: Number, exponent: Number) -> Number:
             return ZERO
         raise UndefinedError("a power of zero")
     if exponent == fmpq(1, 2):
-        return _root(base)
-    _require_positive(base, "a power of a negative")
-    return (exponent * _log(base)).exp()
-
-
-def _root(x: Number) -> Number:
-    if isinstance(x, fmpq):
-        p, q = isqrt(abs(int(x.p))), isqrt(int(x.q))
-        if fmpq(p * p, q * q) == x:
-            return fmpq(p, q)
-    if arb(x) < 0:
-        raise UndefinedError("the root of a negative")
-    return arb(x).sqrt()
-
-
-def _log(x: Number) -> Number:
-    _require_positive(x, "the logarithm of a number that is not positive")
-    return arb(x).log()
+        try:
+            return base.sqrt() if isinstance(base, fmpq) else _root(base)
+        except DomainError:  # not the square of a fraction
+            return _root(base)
+    return _exponential(exponent * _logarithm(base))
 
 
 def sign(x: Number) -> fmpq:
+    """Return -1, 0 or 1."""
     if x == 0:
         return ZERO
     if not (x > 0 or x < 0):
@@ -121,39 +125,28 @@ def _floor(x: Number) -> fmpq:
 
 
 def _lambert(x: Number, branch: Number = ZERO) -> Number:
-    if arb(x) + arb(-1).exp() < 0 or (branch != 0 and not arb(x) < 0):
-        raise UndefinedError("a Lambert function outside its domain")
-    return arb(x).lambertw(0 if branch == 0 else -1)
-
-
-def _smaller(a: Number, b: Number) -> Number:
-    return a if sign(b - a) >= 0 else b
-
-
-def _exact_at(point: int, value: int, function: Callable[[arb], arb]) -> Callable[..., Number]:
-    """Return a function with an exact value at the only point at which this is rational."""
-    return lambda x: fmpq(value) if x == point else function(arb(x))
+    if branch != 0 and not arb(x) < 0:
+        raise UndefinedError("the lower branch of Lambert's function at a number not below 0")
+    return real(arb.lambertw, int(branch.p))(x)
 
 
 FUNCTIONS: dict[type, Callable[..., Number]] = {
-    sp.exp: _exact_at(0, 1, arb.exp),
-    sp.log: _exact_at(1, 0, _log),
-    sp.tanh: _exact_at(0, 0, arb.tanh),
-    sp.sin: _exact_at(0, 0, arb.sin),
-    sp.cos: _exact_at(0, 1, arb.cos),
+    sp.exp: _exponential,
+    sp.log: _logarithm,
+    sp.tanh: real(arb.tanh),
+    sp.sin: real(arb.sin),
+    sp.cos: real(arb.cos),
     sp.tan: lambda x: _divided(arb(x).sin(), arb(x).cos()),
-    sp.atan: _exact_at(0, 0, arb.atan),
-    sp.asin: _exact_at(0, 0, arb.asin),
+    sp.atan: real(arb.atan),
+    sp.asin: real(arb.asin),
     sp.Abs: abs,
     sp.sign: sign,
     sp.floor: _floor,
     sp.LambertW: _lambert,
-    sp.Ei: lambda x: arb(x).ei(),
+    sp.Ei: real(arb.ei),
     sp.besseli: lambda order, x: arb(x).bessel_i(arb(order)),
-    sp.Min: lambda *xs: reduce(_smaller, xs),
-    sp.Max: lambda *xs: -reduce(_smaller, [-x for x in xs]),
     sp.Pow: _power,
-    sp.Mul: lambda *xs: reduce(lambda a, b: a * b, xs),
+    sp.Mul: lambda *xs: reduce(mul, xs),
 }
 
 CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
@@ -199,20 +192,17 @@ def first_zero(function: Callable[[Number], arb]) -> arb:
         except UndecidedError:
             return ZERO
 
-    def first(low: fmpq, high: fmpq, halvings: int) -> arb | None:
+    ends = (ZERO, *(fmpq(137, 100) * fmpq(2) ** k for k in range(-20, 40)))
+    waiting = [(low, high, _HALVINGS_OF_ZERO) for low, high in pairwise(ends)][::-1]
+    while waiting:
+        low, high, halvings = waiting.pop()
         middle, width = (low + high) / 2, high - low
         if sign_at(arb(middle, arb(width / 2).upper())) != 0:
-            return None
-        if halvings == 0:  # the zero is in this interval, or very near
-            if sign_at(low - 8 * width) * sign_at(high + 8 * width) < 0:
-                return arb(middle, arb(9 * width).upper())
+            continue
+        if halvings:
+            waiting += [(middle, high, halvings - 1), (low, middle, halvings - 1)]
+        elif sign_at(low - 8 * width) * sign_at(high + 8 * width) < 0:
+            return arb(middle, arb(9 * width).upper())  # the zero is here, or very near
+        else:
             raise UndecidedError("a possible zero")
-        earlier = first(low, middle, halvings - 1)
-        return first(middle, high, halvings - 1) if earlier is None else earlier
-
-    ends = (ZERO, *(fmpq(137, 100) * fmpq(2) ** k for k in range(-20, 40)))
-    for low, high in pairwise(ends):
-        zero = first(low, high, _HALVINGS_OF_ZERO)
-        if zero is not None:
-            return zero
     raise UndecidedError("no zero is found")

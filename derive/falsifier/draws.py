@@ -8,7 +8,7 @@ Overview
     difference of its sides, zero included, a limit by a remainder that vanishes or grows.  The
     same seed gives the same quantity the same value in every judgement.
 Key results
-    draw_model(relations, wanted, seed, free)    a model, or None if the draw fails
+    draw_model(relations, wanted, seed)    a model, or None if the draw fails
 """
 
 from __future__ import annotations
@@ -21,19 +21,22 @@ from functools import cache, lru_cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
+from sympy.solvers.solveset import NonlinearError, linear_coeffs
 
+from ..claims import FirstZero
 from ..laws import GENERAL
 from ..symbols import DATA, symbol, t
-from .models import Model, dependencies, forms_of, quantities
-from .truth import truth
-from .values import field_of
+from .balls import UndecidedError
+from .expansion import ExpansionTerm
+from .models import Model, dependencies, forms_of, quantities, slope_between_jumps
+from .values import field_of, truth
 
 T, U, V = symbol("T"), symbol("U"), symbol("V")
 _ORDINARY = ("1", "1", "1", "1/2", "2", "3/4", "3/2", "3", "2/3")
 _EXTREME = ("1/4", "1/1000", "1000", "1/8", "20", "1000000", "1/1000000")
 WILD = 5
 """One of so many seeds draws extreme values too."""
-_CLOSED = (sp.Limit, sp.Integral, sp.Subs)
+_CLOSED = (sp.Limit, sp.Integral, sp.Subs, ExpansionTerm)
 
 
 _PHI, _RATIO = GENERAL.phi.func, sp.Dummy("r", real=True)
@@ -84,30 +87,29 @@ class _Draft:
 
 
 def draw_model(
-    relations: tuple[sp.Basic, ...],
-    wanted: tuple[sp.Basic, ...],
-    seed: int,
-    free: frozenset[sp.Expr] = frozenset(),
+    relations: tuple[sp.Basic, ...], wanted: tuple[sp.Basic, ...], seed: int
 ) -> Model | None:
     """Return a model that should satisfy ``relations`` and has values for all of ``wanted``.
 
-    Quantities in ``free`` are drawn outside of their domains.  The model depends on ``wanted``
-    only through derivatives and limits over data, except that now and then it makes a wanted
-    relation an equality.
+    The model depends on ``wanted`` only through derivatives and limits over data, except that now
+    and then it makes a wanted relation an equality.
     """
     chance = random.Random(f"{seed} edge")
     edges = [edge for relation in wanted for edge in relation.atoms(Relational)]
     if edges and chance.random() < 0.15:
         edge = chance.choice(sorted(edges, key=str))
         relations = (*relations, sp.Eq(*edge.args, evaluate=False))
-    over = frozenset().union(*map(slopes_over_data, (*relations, *wanted)))
-    ends = frozenset().union(*map(_limits_over_data, (*relations, *wanted)))
-    moving = ends.union(*(slope.variables for slope in over))
-    model = _draw_quantities(relations, seed, free, frozenset(d.expr for d in over), moving)
+    whole = sp.Tuple(*relations, *wanted)
+    slopes = slopes_over_data(whole)
+    moving = {end.args[1] for end in whole.atoms(sp.Limit)} - {t}
+    moving.update(*(slope.variables for slope in slopes))
+    model = _draw_quantities(
+        relations, seed, frozenset(slope.expr for slope in slopes), frozenset(moving)
+    )
     if model is not None:
         for quantity in quantities(sp.Tuple(*wanted)):
             if not any(known in model.values for known in forms_of(quantity)[:2]):
-                model.values[quantity] = _draw(quantity, seed, quantity in free)
+                model.values[quantity] = _draw(quantity, seed)
     return model
 
 
@@ -117,17 +119,10 @@ def slopes_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
     return frozenset(d for d in relation.atoms(sp.Derivative) if t not in d.variables)
 
 
-@cache
-def _limits_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
-    """Return the data over which a relation takes limits."""
-    return frozenset(limit.args[1] for limit in relation.atoms(sp.Limit)) - {t}
-
-
 @lru_cache(maxsize=300)
 def _draw_quantities(
     relations: tuple[sp.Basic, ...],
     seed: int,
-    free: frozenset[sp.Expr],
     slopes: frozenset[sp.Expr],
     moving: frozenset[sp.Basic],
 ) -> Model | None:
@@ -148,10 +143,10 @@ def _draw_quantities(
         _, *rate = forms_of(quantity)[:2]
         if rate and rate[0] in values:
             least = sp.S.One if quantity.is_positive else sp.S.Zero
-            first = _value(quantity, seed, quantity in free)
+            first = _value(quantity, seed)
             values.setdefault(quantity.subs(t, 0), first if chance.random() < 0.5 else least)
         else:
-            values[quantity] = _fitting(quantity, seed, quantity in free, parts, values)
+            values[quantity] = _fitting(quantity, seed, parts, values)
     return _model(draft)
 
 
@@ -171,11 +166,7 @@ def _constant(part: sp.Basic) -> sp.Expr | None:
 
 
 def _fitting(
-    quantity: sp.Expr,
-    seed: int,
-    outside: bool,
-    relations: list[sp.Basic],
-    values: dict[sp.Expr, sp.Expr],
+    quantity: sp.Expr, seed: int, relations: list[sp.Basic], values: dict[sp.Expr, sp.Expr]
 ) -> sp.Expr:
     """Draw a number or a random function that satisfies the relations with known quantities.
 
@@ -189,7 +180,7 @@ def _fitting(
         and not any(q.args for q in quantities(relation) - {quantity})
     ]
     for attempt in range(12 if about else 1):
-        value = _draw(quantity, seed + 97 * attempt, outside)
+        value = _draw(quantity, seed + 97 * attempt)
         if quantity.subs(t, 0) in values:
             value = value - value.subs(t, 0) + values[quantity.subs(t, 0)]
         partial = Model({**others, quantity: value})
@@ -202,13 +193,30 @@ def _model(draft: _Draft) -> Model | None:
     states = {key.expr for key in draft.values if isinstance(key, sp.Derivative)}
     starts = {key for key in draft.values if key.args == (0,) and key.func(t) not in states}
     values = {key: value for key, value in draft.values.items() if key not in starts}
-    model = Model(values, draft.implicit)
     try:
+        if draft.implicit:
+            values |= _as_state(draft.implicit, values.pop(draft.implicit), values)
+        model = Model(values)
         if model.states:
             _ = model.motion  # raises if there is none
     except (ArithmeticError, RecursionError, ValueError):
         return None
     return model
+
+
+def _as_state(
+    field: sp.Expr, image: sp.Expr, others: dict[sp.Expr, sp.Expr]
+) -> dict[sp.Expr, sp.Expr]:
+    """Return the rate and the start of a field ``y = G(y)``: y' = G_t + G_y y'."""
+    rate, slope, start = field.diff(t), sp.Dummy(), sp.Dummy()
+    inlined = Model({**others, rate: rate}).inlined(image)
+    if inlined.has(sp.floor):
+        raise UndecidedError("an implicit field that jumps")
+    whole = slope_between_jumps(inlined).xreplace({rate: slope})
+    return {
+        rate: whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope)),
+        field.subs(t, 0): FirstZero(start - inlined.xreplace({field: start}), start),
+    }
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
@@ -326,31 +334,22 @@ def _solved(equation: sp.Eq, quantity: sp.Expr) -> sp.Expr | None:
     None if it is not, or if the value depends on the quantity at another time.
     """
     left, right = equation.args
-    if quantity in (left, right) and not (other := right if left == quantity else left).has(
-        quantity
-    ):
+    other = right if quantity == left else left
+    if quantity in (left, right) and not other.has(quantity):
         value = other
     else:
-        dummy = sp.Dummy()
-        residual = (left - right).xreplace({quantity: dummy})
-        if not _polynomial(residual, dummy):
+        try:
+            slope, rest = linear_coeffs(left - right, quantity)
+        except NonlinearError:
             return None
-        slope = sp.diff(residual, dummy)
-        if slope == 0 or slope.has(dummy):
+        if slope == 0:
             return None
-        value = -residual.xreplace({dummy: sp.S.Zero}) / slope
+        value = -rest / slope
     known = quantity.expr if isinstance(quantity, sp.Derivative) else None
     field = (known or quantity).func
     if quantity.args and any(f.func == field and f != known for f in value.atoms(AppliedUndef)):
         return None
     return value
-
-
-def _polynomial(expr: sp.Expr, unknown: sp.Symbol) -> bool:
-    """Return whether an unknown is only in sums and products."""
-    if not expr.has(unknown) or expr == unknown:
-        return True
-    return isinstance(expr, (sp.Add, sp.Mul)) and all(_polynomial(a, unknown) for a in expr.args)
 
 
 def slides_fast(seed: int) -> bool:
@@ -361,29 +360,29 @@ def slides_fast(seed: int) -> bool:
     return seed % WILD == 3
 
 
-def _draw(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Draw a number or a random function of time, ``outside`` of its domain or inside."""
-    return (random_function if quantity.args else _value)(quantity, seed, outside)
+def _draw(quantity: sp.Expr, seed: int) -> sp.Expr:
+    """Draw a number or a random function of time."""
+    return (_function if quantity.args else _value)(quantity, seed)
 
 
-def _value(quantity: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Draw a number for a quantity, ``outside`` of its domain or inside."""
+def _value(quantity: sp.Expr, seed: int) -> sp.Expr:
+    """Draw a number for a quantity, in its domain."""
     chance = random.Random(f"{seed} {_name(quantity)}")
     wild = seed % WILD == WILD - 1 and chance.random() < 0.4
     size = sp.Rational(chance.choice(_EXTREME if wild else _ORDINARY))
     if quantity == V and slides_fast(seed):
         size = sp.Integer(1000)
     if quantity.is_positive:
-        return (-size if chance.random() < 0.7 else sp.S.Zero) if outside else size
+        return size
     if quantity.is_nonnegative:
-        return -size if outside else (sp.S.Zero if chance.random() < 0.25 else size)
+        return sp.S.Zero if chance.random() < 0.25 else size
     if chance.random() < 0.15:
         return sp.S.Zero
     return -size if chance.random() < 0.3 else size
 
 
-def random_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
-    """Return a random function of time, ``outside`` of the domain of a quantity or inside."""
+def _function(varying: sp.Expr, seed: int) -> sp.Expr:
+    """Return a random function of time, in the domain of a quantity."""
     chance = random.Random(f"{seed} {_name(varying)}")
     s = t / T
     size = sp.Rational(chance.choice(("1", "1", "1", "2", "1/2", "-1", "1/4")))
@@ -404,5 +403,4 @@ def random_function(varying: sp.Expr, seed: int, outside: bool) -> sp.Expr:
     if varying.is_positive or varying.is_nonnegative:
         size = abs(size)
         shape = chance.choice((1, 1 + s, 2 + wave, sp.exp(-s), 1 / (1 + s), sp.exp(s)))
-        return -size * shape if outside else size * shape
     return size * shape

@@ -7,8 +7,8 @@ Overview
     with coefficients known at equal phases: at each order c_n is the mean of the known terms, w_n
     the integral of the rest.
 Key results
-    ExpansionCoefficient   a coefficient at a phase, or a derivative of it, as an expression
-    coefficients           drifts and oscillations of a law that is given as a function
+    ExpansionTerm   a term of the expansion at time t, or a derivative of it, as an expression
+    coefficients    drifts and oscillations of a law that is given as a function
 References
     Sanders, Verhulst and Murdock, Averaging Methods in Nonlinear Dynamical Systems, chapter 2.
 """
@@ -22,30 +22,32 @@ import sympy as sp
 from flint import arb, fmpq, fmpq_mat
 from numpy.typing import NDArray
 
+from ..claims import Drift
+from ..symbols import symbol, t
+
 Array = NDArray[np.float64]
 PHASES = 32
 _NEAR, _VALUES = fmpq(1, 10**12), 9
 _HARMONICS = np.fft.rfftfreq(PHASES, 1 / PHASES)
 
 
-class ExpansionCoefficient(sp.Expr):
-    """``ExpansionCoefficient(n, k, F, s, tau, rho, phase)``: the k-th derivative of w_n at a
-    phase; c_n for k = -1."""
+class ExpansionTerm(sp.Expr):
+    """``ExpansionTerm(term, k)``: the k-th derivative, by the phase t/T, of a term."""
 
     is_real = True
     is_commutative = True
 
     @property
     def free_symbols(self) -> set[sp.Basic]:
-        """Return the symbols without s and tau, which are bound."""
-        *_, law, s, tau, rho, phase = self.args
-        return law.free_symbols - {s, tau} | rho.free_symbols | phase.free_symbols
+        """Return the symbols, time only for an oscillation: a drift rests on no phase."""
+        names: set[sp.Basic] = self.args[0].free_symbols
+        return names - {t} if isinstance(self.args[0], Drift) else names
 
     def _eval_derivative(self, variable: sp.Symbol) -> sp.Expr:
-        n, order, *law, phase = self.args
-        if order == -1:
+        term, order = self.args
+        if isinstance(term, Drift) or variable != t:
             return sp.S.Zero
-        return ExpansionCoefficient(n, order + 1, *law, phase) * sp.diff(phase, variable)
+        return ExpansionTerm(term, order + 1) / symbol("T")
 
 
 def coefficients(law: Callable[[fmpq, fmpq], arb], rho: float, n: int) -> tuple[Array, Array]:

@@ -2,9 +2,7 @@
 
 Overview
     A model has values of quantities: of a datum a, a field f(t), a rate df/dt or an initial value
-    f(0).  A field with a given rate is a state, the solution of its differential equation; an
-    implicit field, whose value rests on itself like the pressure on a compliant support, is the
-    root of its equation.
+    f(0).  A field with a given rate is a state, the solution of its differential equation.
 Key results
     Model          the values of data and fields, for ``values.py``
     dependencies   the quantities on which expressions rest
@@ -12,8 +10,8 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 
 import numpy as np
@@ -24,8 +22,7 @@ from sympy.core.function import AppliedUndef
 from ..symbols import symbol, t
 from . import trend
 from .balls import BITS, ZERO, NoValueError, Number, UndecidedError, UndefinedError, ball, fraction
-from .motion import Motion
-from .system import System
+from .motion import Motion, rates_in_floats
 from .values import Moment, compiled, field_of
 
 _FACTORS = ((1, 5), (1.3, 21), (1.9, 37), (2.7, 58), (3.9, 83))
@@ -45,8 +42,6 @@ _TRUSTED = arb(10) ** -12
 
 _UNMOVED = arb(10) ** -6
 """Relative width of a constant up to which a datum is known to have no influence on it."""
-
-Windows = list[list[arb]]
 
 
 @cache
@@ -82,17 +77,14 @@ def forms_of(quantity: sp.Expr) -> tuple[sp.Expr, ...]:
 
 @dataclass(eq=False)
 class Model:
-    """Values of quantities, in terms of one another; ``implicit`` is the field that is the root
-    of its equation."""
+    """Values of quantities, in terms of one another."""
 
     values: dict[sp.Expr, sp.Expr]
-    implicit: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         self._known: dict[object, Number] = {}
         self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
-        self._windows: dict[tuple[sp.Limit, int], Windows] = {}
-        self.satisfied: dict[object, bool | None] = {}
+        self._windows: dict[tuple[sp.Limit, int], list[list[arb]]] = {}
 
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
@@ -138,8 +130,6 @@ class Model:
     def _field_value(self, field: sp.Expr, at: Number, order: int) -> Number:
         if order == 0 and field in self.states:
             return self._state(field, at)
-        if order == 0 and field is self.implicit:
-            return self._root(at)
         return self._evaluate(self.formula(field, order), at)
 
     def _state(self, field: sp.Expr, at: Number) -> Number:
@@ -157,13 +147,6 @@ class Model:
             return self.field(field, end) - self.field(field, begin)
         increment = float(self.motion.increment(first, width)[self.states[field]])
         return arb(increment, (abs(increment) * _TRUSTED).upper())
-
-    def _root(self, at: Number) -> arb:
-        states = np.array([[float(ball(self._state(f, at)).mid())] for f in self.states])
-        (y,) = self.system.root(np.array([float(arb(at))]), states)
-        if not np.isfinite(y):
-            raise UndecidedError("an implicit field without a root")
-        return arb(float(y), 1e-11 * abs(float(y)) + 1e-14)
 
     def _evaluate(self, expr: sp.Expr, at: Number = ZERO) -> Number:
         """Return the value of a quantity; NoValueError, which refutes no claim, if it has none."""
@@ -185,43 +168,35 @@ class Model:
             return self.values[given]
         if order == 0:
             raise UndecidedError(f"{field} is not in the model")
-        if (field, order) == (self.implicit, 1):  # y' = G_t + G_y y'
-            slope = sp.Dummy()
-            whole = _slope(self.inlined(self.values[field])).xreplace({forms_of(field)[1]: slope})
-            return whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope))
-        return _slope(self.formula(field, order - 1))
+        return slope_between_jumps(self.formula(field, order - 1))
 
     def inlined(self, expr: sp.Expr) -> sp.Expr:
-        """Return an expression in time, states, the implicit field, data and initial values."""
-        kept = {*self.states, self.implicit}
+        """Return an expression in time, states, data and initial values."""
         for _ in range(_DEEP):
             rates = {d: self.formula(d.expr, d.derivative_count) for d in expr.atoms(sp.Derivative)}
-            fields = (f for f in expr.atoms(AppliedUndef) - kept if f.args == (t,))
+            fields = (f for f in expr.atoms(AppliedUndef) - self.states.keys() if f.args == (t,))
             if not (parts := rates or {f: self.formula(f, 0) for f in fields}):
                 return expr
             expr = expr.xreplace(parts)
         raise UndecidedError(f"{expr} rests on itself")
 
     @cached_property
-    def system(self) -> System:
-        """Return the equations to integrate."""
-        implicit = [self.implicit] if self.implicit else []
-        rates = [self.inlined(self.formula(state, 1)) for state in self.states]
-        image = [self.inlined(self.formula(field, 0)) for field in implicit]
-        return System((t, *self.states, *implicit), rates, image, self._in_floats)
-
-    def _in_floats(self, quantity: sp.Expr) -> float:
-        """Return the value of a datum, or of a field at the start, as a float."""
-        with ctx.workprec(BITS):
-            return float(ball(compiled(quantity)(Moment(self))).mid())
-
-    @cached_property
     def motion(self) -> Motion:
         """Return the states over time, shared by models with the same values for them."""
-        roots = (*self.states, *([self.implicit] if self.implicit else []))
-        needed = dependencies(roots, self.values)
+        needed = dependencies(self.states, self.values)
         used = {key: self.values[key] for q in needed for key in forms_of(q) if key in self.values}
-        return _integrated(frozenset(used.items()), self.implicit)
+        return _integrated(frozenset(used.items()))
+
+    def in_floats(self, quantity: sp.Expr, order: int = 0) -> float:
+        """Return the value of a datum or of a field, or a derivative of it, at the start."""
+        with ctx.workprec(BITS):
+            if quantity.args == (t,):
+                value = ball(self.field(quantity, ZERO, order))
+            else:
+                value = ball(compiled(quantity)(Moment(self)))
+        if value.rad() > _TRUSTED * abs(value):
+            raise UndecidedError(f"too few digits of {quantity}")
+        return float(value.mid())
 
     def limit(self, expr: sp.Limit) -> arb:
         """Return a limit with an error from its trend, at the latest times that resolve it."""
@@ -234,17 +209,17 @@ class Model:
         """Return the last value of the trend of a limit."""
         return self._trend_values(expr, _FAR)[-1][-1]
 
-    def judge_limit(self, expr: sp.Limit, judge: Callable[[Windows], bool | None]) -> bool | None:
-        """Judge a trend; confirm a refusal at later times, and retry an open case at earlier ones.
+    def tends(self, expr: sp.Limit, end: arb) -> bool | None:
+        """Return whether a limit has a value; None if its trend is not clear.
 
-        At early times fields may not have left their start, at late ones rounding may hide them.
+        A refusal is confirmed at later times, and an open case is tried again at earlier ones:
+        at early times fields may not have left their start, at late ones rounding may hide them.
         """
-        outcome = judge(self._trend_values(expr, _FAR)[::2])
+        outcome = trend.tends_to(self._trend_values(expr, _FAR)[::2], end)
         if outcome or not self.states or expr.args[2] != sp.oo:
             return outcome
-        if outcome is False:
-            return judge(self._trend_values(expr, _FARTHEST)[::2]) or False
-        return judge(self._trend_values(expr, _NEAR)[::2]) or None
+        again = _NEAR if outcome is None else _FARTHEST
+        return trend.tends_to(self._trend_values(expr, again)[::2], end) or outcome
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
         """Return the derivative of a constant with respect to one datum, all others held.
@@ -270,10 +245,9 @@ class Model:
 
     def with_datum(self, datum: sp.Symbol, value: fmpq) -> Model:
         """Return the model with one datum changed."""
-        changed = {**self.values, datum: sp.Rational(int(value.p), int(value.q))}
-        return replace(self, values=changed)
+        return Model({**self.values, datum: sp.Rational(int(value.p), int(value.q))})
 
-    def _trend_values(self, expr: sp.Limit, far: int) -> Windows:
+    def _trend_values(self, expr: sp.Limit, far: int) -> list[list[arb]]:
         """Return the values of an expression in windows towards the point of its limit."""
         key = (expr, far)
         if key not in self._windows:
@@ -297,16 +271,13 @@ class Model:
         if not self.states:
             return [self._window(10**k) for k in (4, 8, 16, 32, 64)]
         period = float(arb(self.period))
-        if far == _FARTHEST and not self.motion.may_reach(period * far * 2):
-            raise UndecidedError("the fields are not known for long enough")
         periods = min(self.motion.integrate_to(period * far * 5) / period, 5 * far) / 4
-        steps = (4, 3, 2, 1, 0)
         if periods > far / 2:  # the logarithms of the times form a geometric sequence
-            return [self._window(int(periods**power), power) for k in steps
-                    for power in (0.5 ** (k / 2),)]  # fmt: skip
+            powers = [0.5 ** (k / 2) for k in (4, 3, 2, 1, 0)]
+            return [self._window(int(periods**power), power) for power in powers]
         if periods < 25 or far == _FARTHEST:
             raise UndecidedError("the fields are not known for long enough")
-        return [self._window(int(periods / 2**k)) for k in steps]
+        return [self._window(int(periods / 2**k)) for k in (4, 3, 2, 1, 0)]
 
     def _window(self, periods: int, power: float = 1.0) -> list[fmpq]:
         factors = ((int(periods * f**power), phase) for f, phase in _FACTORS)
@@ -320,24 +291,25 @@ def _towards(point: sp.Expr) -> list[fmpq]:
     return [fraction(point) + 1 / step for step in steps]
 
 
-def _slope(expr: sp.Expr) -> sp.Expr:
+def slope_between_jumps(expr: sp.Expr) -> sp.Expr:
     """Return the derivative in time between jumps."""
     steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}
     return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
 
 
 @lru_cache(maxsize=400)
-def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]], implicit: sp.Expr | None) -> Motion:
+def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]]) -> Motion:
     """Return the motion of a model with no more values than its states rest on."""
-    model = Model(dict(values), implicit)
-    with ctx.workprec(BITS):
-        first = np.array([float(ball(model.field(f, ZERO)).mid()) for f in model.states])
-        spacing = min(_spacings(model), default=0.0)
-        rates = [float(ball(model.field(f, ZERO, 1)).mid()) for f in model.states]
-    in_floats = model.system.rates(np.zeros(1), first[:, None])[:, 0]
-    if not np.allclose(in_floats, rates, rtol=1e-9, atol=0):
+    model = Model(dict(values))
+    first, slopes = (
+        np.array([model.in_floats(f, order) for f in model.states]) for order in (0, 1)
+    )
+    formulas = [model.inlined(model.formula(state, 1)) for state in model.states]
+    rates = rates_in_floats(tuple(model.states), formulas, model.in_floats)
+    if not np.allclose(rates(np.zeros(1), first[:, None])[:, 0], slopes, rtol=1e-9, atol=0):
         raise UndecidedError("rates below their rounding error")
-    return Motion(model.system.rates, first, spacing, float(arb(model.period)) / 4)
+    spacing = min(_spacings(model), default=0.0)
+    return Motion(rates, first, spacing, float(arb(model.period)) / 4)
 
 
 def _spacings(model: Model) -> Iterator[float]:

@@ -7,7 +7,8 @@ Overview
     so that fields are known at all times, and their increments to as many digits as the rates.
     The module shares nothing with `wear` or with the rules.
 Key results
-    Motion    the states of one system, integrated up to the requested times
+    Motion            the states of one system, integrated up to the requested times
+    rates_in_floats   their rates at many times at once
 References
     Trefethen, Approximation Theory and Approximation Practice, chapters 2 and 4.
 """
@@ -15,13 +16,18 @@ References
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
+import sympy as sp
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
+from sympy.core.function import AppliedUndef
 
+from ..symbols import t
 from .balls import UndecidedError
 
 Array = NDArray[np.float64]
@@ -36,7 +42,16 @@ _GAUSS = np.polynomial.legendre.leggauss(NODES // 2)
 """Exact for the polynomials of the rates."""
 _SWEEPS, _FEW, _HUGE = 40, 14, 1e200
 _SETTLED, _LEFT_OUT = 1e-14, 1e-13
-_FIRST, MOST_STEPS = 80, 400
+MOST_STEPS = 400
+
+
+class _Step(NamedTuple):
+    """An interval of time, with the coefficients of states and rates, ``(NODES, states)``."""
+
+    begin: float
+    end: float
+    states: Array
+    rates: Array
 
 
 @dataclass(eq=False)
@@ -47,40 +62,38 @@ class Motion:
     first: Array
     spacing: float = 0.0
     width: float = 0.25
-    _times: list[float] = field(default_factory=lambda: [0.0])
-    _pieces: list[tuple[Array, Array]] = field(default_factory=list)
+    _steps: list[_Step] = field(default_factory=list)
     _stuck: bool = False
 
     @property
     def reached(self) -> float:
         """Return the time up to which the states are known."""
-        return self._times[-1]
+        return self._steps[-1].end if self._steps else 0.0
 
     def at(self, time: float) -> tuple[Array, Array]:
         """Return the states at a time and their rounding errors; UndecidedError if the time is
         out of reach."""
-        if self.integrate_to(time) <= time:
-            raise UndecidedError("the fields are not known for so long")
-        number = bisect_right(self._times, time) - 1
-        begin, end = self._times[number : number + 2]
+        begin, end, states, _ = self._steps[self._place(time, time)]
         place = (2 * time - begin - end) / (end - begin)
-        piece = self._pieces[number][0]
-        return np.asarray(chebyshev.chebval(place, piece)), 1e-15 * np.abs(piece).sum(axis=0)
+        return np.asarray(chebyshev.chebval(place, states)), 1e-15 * np.abs(states).sum(axis=0)
 
     def increment(self, begin: float, width: float) -> Array:
         """Return the increments of the states in a time ``width``; UndecidedError as in ``at``."""
-        if self.integrate_to(begin + width) <= begin + width:
-            raise UndecidedError("the fields are not known for so long")
         gain = np.zeros_like(self.first)
-        for number in range(bisect_right(self._times, begin) - 1, len(self._pieces)):
-            low, high = self._times[number : number + 2]
+        for low, high, _, rates in self._steps[self._place(begin, begin + width) :]:
             first, last = max(0.0, low - begin), min(width, high - begin)
             if last <= first:
                 break
             middle, half = begin + (first + last) / 2, (last - first) / 2
             places = (2 * (middle + half * _GAUSS[0]) - low - high) / (high - low)
-            gain += half * chebyshev.chebval(places, self._pieces[number][1]) @ _GAUSS[1]
+            gain += half * chebyshev.chebval(places, rates) @ _GAUSS[1]
         return gain
+
+    def _place(self, time: float, latest: float) -> int:
+        """Return the place of the step at a time, once all times up to ``latest`` are known."""
+        if self.integrate_to(latest) <= latest:
+            raise UndecidedError("the fields are not known for so long")
+        return bisect_right(self._steps, time, key=lambda step: step.begin) - 1
 
     def integrate_to(self, time: float) -> float:
         """Integrate to a time, or as far as the steps allow; return the time reached."""
@@ -88,45 +101,69 @@ class Motion:
             self._advance()
         return self.reached
 
-    def may_reach(self, time: float) -> bool:
-        """Return whether the first steps are wide enough to expect that a time is reached."""
-        while self.reached <= time and len(self._pieces) < _FIRST and not self._stuck:
-            self._advance()
-        return self.reached > time * _FIRST / MOST_STEPS * 1e-3
-
     def _advance(self) -> None:
         begin, step = self.reached, self.width
-        first = self.first if not self._pieces else self._pieces[-1][0].sum(axis=0)
-        while step > 1e-7 * max(1.0, begin) and len(self._pieces) < MOST_STEPS:
+        first = self._steps[-1].states.sum(axis=0) if self._steps else self.first
+        while step > 1e-7 * max(1.0, begin) and len(self._steps) < MOST_STEPS:
             if self.spacing:
                 step = min(step, self.spacing * (begin // self.spacing + 1) - begin)
-            piece, sweeps = self._solve_step(begin, step, first)
-            if piece is not None:
+            solved, sweeps = self._solve(begin, step, first)
+            if solved is not None:
                 grown = 1.6 * step if sweeps <= _FEW else step
                 self.width = min(grown, 2 * max(1.0, begin))
-                self._pieces.append(piece)
-                self._times.append(begin + step)
+                self._steps.append(solved)
                 return
             step /= 2
         self._stuck = True
 
-    def _solve_step(
-        self, begin: float, step: float, first: Array
-    ) -> tuple[tuple[Array, Array] | None, int]:
-        """Return the coefficients of states and rates in a step, each of shape
-        ``(NODES, states)``, and the number of sweeps; None without convergence."""
-        times = begin + step * (1 + _POINTS) / 2
+    def _solve(self, begin: float, width: float, first: Array) -> tuple[_Step | None, int]:
+        """Return a step, None without convergence, and the number of sweeps."""
+        times = begin + width * (1 + _POINTS) / 2
         states = np.repeat(first[:, None], NODES, axis=1)
         for sweep in range(_SWEEPS):
             rates = self.rates(times, states)
             if not (np.abs(rates) < _HUGE).all():
                 break
-            new = first[:, None] + step * rates @ _INTEGRAL.T
+            new = first[:, None] + width * rates @ _INTEGRAL.T
             size = np.abs(new).max(axis=1) + 1e-30
             change, states = (np.abs(new - states).max(axis=1) / size).max(), new
             if change <= _SETTLED:
-                piece = _COEFFICIENTS @ states.T
-                rest = np.abs(piece[-2:]).max(axis=0) / size
-                resolved = rest.max() <= _LEFT_OUT
-                return ((piece, _COEFFICIENTS @ rates.T) if resolved else None), sweep
+                series = _COEFFICIENTS @ states.T
+                if (np.abs(series[-2:]).max(axis=0) / size).max() > _LEFT_OUT:
+                    return None, sweep
+                return _Step(begin, begin + width, series, _COEFFICIENTS @ rates.T), sweep
         return None, _SWEEPS
+
+
+def rates_in_floats(
+    states: Sequence[sp.Expr], rates: Sequence[sp.Expr], value: Callable[[sp.Expr], float]
+) -> Callable[[Array, Array], Array]:
+    """Return the rates as a function of the times and of the states, shape ``(states, times)``.
+
+    ``rates`` are expressions in time, states, and data, of which ``value`` gives the numbers.
+    """
+    whole = sp.Tuple(*rates)
+    if whole.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
+        raise UndecidedError(f"{whole} has no numerical value")
+    fields = whole.atoms(AppliedUndef)
+    if any(field.args not in ((t,), (0,)) for field in fields):
+        raise UndecidedError("a rate that needs another time")
+    moving = (t, *states)
+    data = tuple(sorted((fields | whole.atoms(sp.Symbol)) - set(moving), key=str))
+    values = list(map(value, data))
+    function = _compiled(tuple(rates), (*moving, *data))
+
+    def evaluated(times: Array, at: Array) -> Array:
+        result = np.empty((len(at), len(times)))
+        with np.errstate(all="ignore"):
+            for row, rate in zip(result, function(times, *at, *values), strict=True):
+                row[:] = rate
+        return result
+
+    return evaluated
+
+
+@cache
+def _compiled(rates: tuple[sp.Expr, ...], names: tuple[sp.Expr, ...]) -> Callable[..., list[Any]]:
+    """Return a function that models with the same equations share."""
+    return sp.lambdify(names, list(rates), "numpy", cse=True)

@@ -12,8 +12,8 @@ Overview
 
     Divergence: the smallest value increases from window to window by as much as before.
 Key results
-    tends_to, diverges   True, False, or None: no verdict
-    limit                the limit as a ball; UndefinedError if the values keep oscillating
+    tends_to   True, False, or None: no verdict
+    limit      the limit as a ball; UndefinedError if the values keep oscillating
 """
 
 from __future__ import annotations
@@ -30,7 +30,9 @@ _GROSS = arb(10) ** -3
 
 
 def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
-    """Return whether values tend to ``value``."""
+    """Return whether values tend to ``value``, which may be infinite."""
+    if not value.is_finite():
+        return _diverges(windows, 1 if value > 0 else -1)
     first, before, last = (max(abs(v - value).mid() for v in w) for w in windows[-3:])
     size = max(*(abs(v).mid() for v in windows[-1]), abs(value).mid())
     if any(v.rad() > _GROSS * (abs(v - value) + _RESOLVED * size) for v in windows[-1]):
@@ -42,7 +44,7 @@ def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
     return None
 
 
-def diverges(windows: Sequence[Window], sign: int) -> bool | None:
+def _diverges(windows: Sequence[Window], sign: int) -> bool | None:
     """Return whether values finally exceed (sign 1) or fall below (-1) every bound."""
     first, before, last = (min(sign * v.mid() for v in window) for window in windows[-3:])
     gain, gained = last - before, before - first

@@ -1,19 +1,22 @@
-"""Values of expressions, and truth of relations, at a time in a model.
+"""Values of expressions, and truth of relations, in a model.
 
 Overview
     An expression is compiled, once, to a function of a moment (a model and a time).  Derivatives
     in time are those of the fields' formulas.  Equations are compared to 20 digits and more,
     inequalities are decided if the balls of the two sides do not overlap (with four times the
-    precision if they do at first).  A limit is judged by its trend.
+    precision if they do at first).  A limit is judged by its trend.  Hypotheses and claims are
+    about all times: a relation is evaluated at the model's times, and does not hold if one of its
+    sides has no value (0/0).
 Key results
-    compiled(expr)               the function of a moment
-    holds_at(relation, moment)   whether it holds; raises UndecidedError and UndefinedError
+    compiled(expr)            the function of a moment
+    truth(relation, model)    True, False or None (no verdict), and where
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from itertools import chain
 from math import tau
@@ -23,17 +26,19 @@ from typing import Any
 import sympy as sp
 from flint import arb, ctx, fmpq
 from sympy.core.function import AppliedUndef
+from sympy.core.logic import fuzzy_and, fuzzy_not, fuzzy_or
 from sympy.core.relational import Relational
-from sympy.logic.boolalg import And, BooleanFunction, Equivalent, Implies, Not, Or
+from sympy.logic.boolalg import BooleanFunction
 
-from ..claims import FirstZero
-from ..symbols import t
+from ..claims import Drift, FirstZero, Term
+from ..symbols import symbol, t
 from .balls import (
     BITS,
     CONSTANTS,
     FUNCTIONS,
     NOTHING,
     ZERO,
+    NoValueError,
     Number,
     UndecidedError,
     UndefinedError,
@@ -42,15 +47,15 @@ from .balls import (
     fraction,
     integral,
 )
-from .expansion import Array, ExpansionCoefficient, at_phase, coefficients
-from .trend import diverges, tends_to
+from .expansion import Array, ExpansionTerm, at_phase, coefficients
 
+EARLY = 5
+"""Number of a model's times within three periods."""
 _ROUNDING, _AGREE = arb(10) ** -40, arb(10) ** -2
 """Relative widths of balls: from rounding alone; below which overlapping balls count as equal."""
 _SMALL = arb(10) ** -9
 """Absolute width below which overlapping balls count as equal, since both sides may vanish."""
-
-
+_T = symbol("T")
 _COMPARED = {"==": eq, "!=": ne, "<": lt, "<=": le, ">": gt, ">=": ge}
 
 
@@ -60,20 +65,13 @@ class Moment:
 
     model: Any  # of .models: a Model
     time: Number = ZERO
-    bound: tuple[tuple[sp.Symbol, Number], ...] = ()
+    bound: Mapping[sp.Symbol, Number] = field(default_factory=dict)
 
     def at(self, name: sp.Symbol, value: Number) -> Moment:
         """Return the moment with a value of a variable."""
         if name == t:
             return replace(self, time=value)
-        return replace(self, bound=((name, value), *self.bound))
-
-    def valued(self, name: sp.Symbol) -> Number:
-        """Return the value of a variable or of a datum."""
-        for variable, value in self.bound:
-            if variable == name:
-                return value
-        return self.model.constant(name)
+        return replace(self, bound={**self.bound, name: value})
 
 
 Value = Callable[[Moment], Number]
@@ -100,14 +98,16 @@ def compiled(expr: sp.Basic) -> Value:
     return lambda moment: function(*[argument(moment) for argument in arguments])
 
 
-def field_of(expr: AppliedUndef) -> sp.Expr:
-    """Return a field at time t, always the same object for fast lookups."""
-    return _at_time_t(expr.func)
-
-
 @cache
-def _at_time_t(function: sp.FunctionClass) -> sp.Expr:
-    return function(t)
+def field_of(expr: AppliedUndef) -> sp.Expr:
+    """Return a field at time t."""
+    return expr.func(t)
+
+
+def _symbol(name: sp.Symbol) -> Value:
+    return lambda moment: (
+        moment.bound[name] if name in moment.bound else moment.model.constant(name)
+    )
 
 
 def _field(expr: AppliedUndef, order: int = 0) -> Value:
@@ -148,50 +148,44 @@ def _at(expr: sp.Subs) -> Value:
     return lambda moment: inside(moment.at(name, at(moment)))
 
 
-def _limit(expr: sp.Limit) -> Value:
-    return lambda moment: moment.model.limit(expr)
-
-
 def _integral(expr: sp.Integral) -> Value:
     ((name, low, high),) = expr.limits
-    inside, begin, end = _along(expr.function, name), compiled(low), compiled(high)
-    return lambda moment: integral(inside(moment), begin(moment), end(moment))
+    inside, begin, end = compiled(expr.function), compiled(low), compiled(high)
+    return lambda moment: integral(
+        lambda x: ball(inside(moment.at(name, x))), begin(moment), end(moment)
+    )
 
 
 def _first_zero(expr: FirstZero) -> Value:
-    inside = _along(*expr.args)
-    return lambda moment: first_zero(inside(moment))
+    inside, name = compiled(expr.args[0]), expr.args[1]
+    return lambda moment: first_zero(lambda x: ball(inside(moment.at(name, x))))
 
 
-def _along(expr: sp.Expr, name: sp.Symbol) -> Callable[[Moment], Callable[[Number], arb]]:
-    """Return an expression as a function of one variable, at each moment."""
-    value = compiled(expr)
-    return lambda moment: lambda x: ball(value(moment.at(name, x)))
-
-
-def _expanded(expr: ExpansionCoefficient) -> Value:
-    number, order = map(int, expr.args[:2])
-    law, at = expr.args[2:6], compiled(expr.args[6])
+def _expansion_term(expr: ExpansionTerm) -> Value:
+    number, order = int(expr.args[0].args[0]), int(expr.args[1])
 
     def value(moment: Moment) -> arb:
-        drift, waves = _coefficients(moment.model, number, *law)
-        phase = float(ball(at(moment)).mid()) % 1
-        term = drift[number] if order < 0 else at_phase(waves[number], phase, order)
-        size = abs(drift[number]) + abs(waves[number]).max() * (number * tau) ** max(order, 0)
+        drift, waves = _expansion(moment.model, expr.args[0])
+        if isinstance(expr.args[0], Drift):
+            term = drift[number]
+        else:
+            phase = float(ball(moment.time / moment.model.constant(_T)).mid()) % 1
+            term = at_phase(waves[number], phase, order)
+        size = abs(drift[number]) + abs(waves[number]).max() * (number * tau) ** order
         return arb(float(term), 1e-9 * float(size))
 
     return value
 
 
 @lru_cache(maxsize=50)
-def _coefficients(
-    model: Any, number: int, law: sp.Expr, s: sp.Symbol, phase: sp.Symbol, rho: sp.Expr
-) -> tuple[Array, Array]:
-    now, inside = Moment(model), compiled(law)
+def _expansion(model: Any, term: Term) -> tuple[Array, Array]:
+    """Return the coefficients of an averaged expansion up to a term of it."""
+    number, law, s, _, rho = term.args
+    inside, period = compiled(law), model.constant(_T)
     return coefficients(
-        lambda size, turned: ball(inside(now.at(s, size).at(phase, turned))),
-        float(ball(compiled(rho)(now)).mid()),
-        number,
+        lambda size, phase: ball(inside(Moment(model, phase * period, {s: size}))),
+        float(ball(compiled(rho)(Moment(model))).mid()),
+        int(number),
     )
 
 
@@ -200,7 +194,10 @@ def _cases(expr: sp.Piecewise) -> Value:
 
     def value(moment: Moment) -> Number:
         for branch, condition in values:
-            if holds_at(condition, moment):
+            holds = holds_at(condition, moment)
+            if holds is None:
+                raise UndecidedError("a condition of a piecewise expression")
+            if holds:
                 return branch(moment)
         raise UndefinedError("no case of a piecewise expression")
 
@@ -208,84 +205,60 @@ def _cases(expr: sp.Piecewise) -> Value:
 
 
 _SPECIAL: tuple[tuple[type, Callable[..., Value]], ...] = (
-    (sp.Symbol, lambda name: lambda moment: moment.valued(name)),
+    (sp.Symbol, _symbol),
     (sp.Add, _sum),
     (AppliedUndef, _field),
     (sp.Derivative, _derivative),
     (sp.Subs, _at),
-    (sp.Limit, _limit),
+    (sp.Limit, lambda limit: lambda moment: moment.model.limit(limit)),
     (sp.Integral, _integral),
     (sp.Piecewise, _cases),
     (FirstZero, _first_zero),
-    (ExpansionCoefficient, _expanded),
+    (ExpansionTerm, _expansion_term),
 )
 
 
-def holds_at(relation: sp.Basic, moment: Moment) -> bool:
-    """Return whether a relation holds at a moment."""
+def holds_at(relation: sp.Basic, moment: Moment) -> bool | None:
+    """Return whether a relation holds at a moment, None if it is undecided."""
     if relation in (sp.true, sp.false):
         return bool(relation)
-    if isinstance(relation, BooleanFunction):
-        return _composed(relation, moment)
-    if not isinstance(relation, Relational):
-        raise UndecidedError(f"{relation} is no relation")
-    for bits in (BITS, 4 * BITS):
-        final = bits > BITS
-        with ctx.workprec(bits):
-            try:
-                outcome = _compared(relation, moment, final)
-            except UndecidedError:
-                if final:
-                    raise
-                continue
-        if outcome is not None:
-            return outcome
-    raise UndecidedError("the two sides cannot be distinguished")
+    if isinstance(relation, (sp.And, sp.Or)):
+        composed = fuzzy_and if isinstance(relation, sp.And) else fuzzy_or
+        return composed(holds_at(part, moment) for part in relation.args)
+    if isinstance(relation, (sp.Not, sp.Implies, sp.Equivalent)):
+        return holds_at(_normal_form(relation), moment)
+    if isinstance(relation, Relational):
+        for bits in (BITS, 4 * BITS):
+            with ctx.workprec(bits), suppress(UndecidedError):
+                outcome = _compared(relation, moment, final=bits > BITS)
+                if outcome is not None:
+                    return outcome
+    return None
 
 
-def _composed(relation: BooleanFunction, moment: Moment) -> bool:
-    parts = relation.args
-    if isinstance(relation, Not):
-        return not holds_at(parts[0], moment)
-    if isinstance(relation, Implies):
-        return not holds_at(parts[0], moment) or holds_at(parts[1], moment)
-    if isinstance(relation, Equivalent):
-        return len({holds_at(part, moment) for part in parts}) == 1
-    if isinstance(relation, (And, Or)):
-        return _joined(relation, moment)
-    raise UndecidedError(f"{type(relation).__name__} has no truth")
-
-
-def _joined(relation: BooleanFunction, moment: Moment) -> bool:
-    """Return the truth of an 'and' or an 'or', of which some parts may be undecided."""
-    decisive, unknown = isinstance(relation, Or), None
-    for part in relation.args:
-        try:
-            if holds_at(part, moment) == decisive:
-                return decisive
-        except UndecidedError as reason:
-            unknown = reason
-    if unknown is not None:
-        raise unknown
-    return not decisive
+@cache
+def _normal_form(relation: BooleanFunction) -> sp.Basic:
+    """Return a relation composed by "and" and "or" alone."""
+    return relation.to_nnf(simplify=False)
 
 
 def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
-    left, right = relation.lhs, relation.rhs
-    equal = isinstance(relation, (sp.Eq, sp.Ne))
-    if equal and isinstance(right, sp.Limit):
-        left, right = right, left
-    if equal and right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
-        zeros = [holds_at(sp.Eq(factor, 0, evaluate=False), moment) for factor in left.args]
-        return any(zeros) == isinstance(relation, sp.Eq)
-    if left.is_infinite or right.is_infinite or isinstance(left, sp.Limit):
-        outcome = _at_infinity(relation, left, right, moment)
-        if outcome is not None:
-            return outcome
+    left, right = relation.args
+    if right == sp.oo and relation.rel_op in ("<", "<="):
+        return True
+    if isinstance(relation, sp.Ne) and relation.has(sp.Limit):
+        return fuzzy_not(holds_at(sp.Eq(left, right, evaluate=False), moment))
+    if isinstance(relation, sp.Eq):
+        left, right = sorted(relation.args, key=lambda side: not isinstance(side, sp.Limit))
+        if isinstance(left, sp.Limit):
+            return _tends(left, right, moment)
+        if right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
+            zeros = (sp.Eq(factor, 0, evaluate=False) for factor in left.args)
+            return fuzzy_or(holds_at(zero, moment) for zero in zeros)
     terms = [[compiled(term)(moment) for term in sp.Add.make_args(side)] for side in (left, right)]
     gap = sum(terms[0], ZERO) - sum(terms[1], ZERO)
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):
-        return bool(_COMPARED[relation.rel_op](_sign(gap), 0))
+        return bool(_COMPARED[relation.rel_op](gap, 0))
     gap = ball(gap)
     size = max(abs(ball(term)).upper() for term in chain(*terms))
     if not final and gap.rad() <= _ROUNDING * size:
@@ -297,27 +270,74 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
     return None
 
 
-def _sign(gap: fmpq | arb) -> int:
-    return 0 if gap == 0 else 1 if gap > 0 else -1
+def _tends(limit: sp.Limit, value: sp.Expr, moment: Moment) -> bool | None:
+    if t in value.free_symbols:
+        raise UndefinedError("a limit in time that still depends on time")
+    infinite = {sp.oo: arb.pos_inf(), -sp.oo: arb.neg_inf()}
+    end = infinite[value] if value in infinite else ball(compiled(value)(moment))
+    tends: bool | None = moment.model.tends(limit, end)
+    return tends
 
 
-def _at_infinity(
-    relation: Relational, left: sp.Expr, right: sp.Expr, moment: Moment
-) -> bool | None:
-    """Return the truth of a claim on a limit; None if numbers are to be compared."""
-    equal = isinstance(relation, (sp.Eq, sp.Ne))
-    if not equal:
-        return True if right == sp.oo and isinstance(relation, (sp.Lt, sp.Le)) else None
-    if not isinstance(left, sp.Limit):
-        return None
-    if right.is_infinite:
-        sign = 1 if right == sp.oo else -1
-        outcome = moment.model.judge_limit(left, lambda windows: diverges(windows, sign))
-    else:
-        if t in right.free_symbols:
-            raise UndefinedError("a limit in time that still depends on time")
-        value = ball(compiled(right)(moment))
-        outcome = moment.model.judge_limit(left, lambda windows: tends_to(windows, value))
-    if outcome is None:
-        raise UndecidedError("the trend is not clear")
-    return outcome == isinstance(relation, sp.Eq)
+@dataclass(frozen=True)
+class Truth:
+    """Whether a relation holds in a model, None if undecided.
+
+    ``where`` is a time and values that refute it, or the expression without a value.
+    """
+
+    holds: bool | None
+    where: str = ""
+
+
+def truth(relation: sp.Basic, model: Any) -> Truth:
+    """Return whether a relation holds in a model for all its times."""
+    timeless = t not in relation.free_symbols
+    outcomes: set[bool | None] = set()
+    for number, time in enumerate(model.times[:1] if timeless else model.times):
+        moment = Moment(model, time)
+        when = "" if timeless else f"at {t} = {_shown(time)}: "
+        holds = None
+        try:
+            holds = holds_at(relation, moment)
+        except UndefinedError as reason:
+            return Truth(False, f"{when}{reason}")
+        except NoValueError as reason:
+            if number < EARLY:
+                return Truth(None, str(reason))
+        except (ArithmeticError, ValueError, RecursionError):
+            pass
+        if holds is False:
+            return Truth(False, when + _sides(relation, moment))
+        if holds or number < EARLY:
+            outcomes.add(holds)
+    return Truth(True if outcomes == {True} else None)
+
+
+def _sides(relation: sp.Basic, moment: Moment) -> str:
+    """Return the values of the two sides of a relation that does not hold."""
+    if not isinstance(relation, Relational):
+        return "it does not hold"
+    values: list[tuple[str, Number | str]] = []
+    for side in relation.args:
+        latest = {limit: sp.Dummy() for limit in side.atoms(sp.Limit)}
+        at = moment
+        try:
+            with ctx.workprec(BITS):
+                for limit, name in latest.items():
+                    at = at.at(name, moment.model.latest(limit))
+                values.append(("towards " * bool(latest), compiled(side.xreplace(latest))(at)))
+        except (ArithmeticError, ValueError):
+            values.append(("", str(side) if side.is_infinite else "?"))
+    for digits in range(6, 18):
+        left, right = (_shown(value, digits) for _, value in values)
+        if left != right:
+            break
+    return f"{values[0][0]}{left} on the left, {values[1][0]}{right} on the right"
+
+
+def _shown(number: Number | str, digits: int = 6) -> str:
+    if isinstance(number, str):
+        return number
+    value = arb(number)
+    return f"{0.0 if value.contains(0) else float(value.mid()):.{digits}g}"

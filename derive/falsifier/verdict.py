@@ -6,33 +6,39 @@ Overview
     all hypotheses.  A hypothesis is needed if a model violates it alone, and the claim; no such
     model proves it *superfluous*.
 Key results
-    falsify(hypotheses, claim)    a counterexample, or the numbers of models
+    try_on_models(judgement)                     a model that breaks it, or the number of trials
+    counterexample_without(judgement, dropped)   a model that breaks it without one hypothesis
+    falsify(hypotheses, claim)                   the same for relations
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache, lru_cache
 
 import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
 
-from ..claims import Drift, Term
+from ..claims import Asymptotic, Claim, FirstZero, Predicate, Property, SlowEquation, Term
+from ..hypotheses import Hypothesis
+from ..kernel import Judgement, domain
 from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, draw_model, slides_fast, slopes_over_data, with_law
-from .expansion import ExpansionCoefficient
+from .expansion import ExpansionTerm
 from .models import Model, dependencies, quantities
-from .truth import truth
+from .values import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
-_T, _TAU = symbol("T"), symbol("tau")
-_CLOCK = sp.Eq(t, _T * _TAU)
-DRAWS = 60
-"""Number of seeds for a judgement."""
+_T, _TAU, _CYCLES = symbol("T"), symbol("tau"), symbol("N")
+DRAWS, _FEW, _SEEDS = 60, 12, 300
+"""Number of seeds for relations, for a judgement, for one without a hypothesis."""
 ENOUGH = 12
-"""Number of models after which a claim that holds in all of them is accepted."""
+"""Number of models after which relations that hold in all of them are accepted."""
+
+Relations = tuple[sp.Basic, ...]
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,6 @@ class Counterexample:
 
     model: tuple[sp.Eq, ...]
     where: str
-    seed: int
 
     def __str__(self) -> str:
         drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
@@ -81,6 +86,50 @@ class TrialResult:
         return f"holds in {self.decided} of {self.models} models of the hypotheses, fails in none"
 
 
+def try_on_models(judgement: Judgement) -> TrialResult:
+    """Return the result of trying a judgement on models; none is known of an averaged expansion."""
+    if any(isinstance(hypothesis.relation, SlowEquation) for hypothesis in judgement.hypotheses):
+        return TrialResult(None, models=0, decided=0, doubtful=1)
+    return _tried(_relations(judgement), _decidable(judgement.claim))
+
+
+@cache
+def _tried(relations: Relations, claim: sp.Basic) -> TrialResult:
+    return falsify(relations, claim, _FEW, enough=2)
+
+
+def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
+    """Return a model of all other hypotheses that breaks the claim, None if none is found.
+
+    None is no proof that the hypothesis is superfluous.
+    """
+    relations, claim = _relations(judgement), _decidable(judgement.claim)
+    return falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
+
+
+def _relations(judgement: Judgement) -> Relations:
+    """Return the hypotheses, and for an asymptotic claim in a field the limit of that field."""
+    claim = judgement.claim
+    given = (hypothesis.relation for hypothesis in judgement.hypotheses)
+    relations = tuple(relation for relation in given if not isinstance(relation, Predicate))
+    if not isinstance(claim, Asymptotic) or isinstance(claim.variable, sp.Symbol):
+        return relations
+    return *relations, sp.Eq(sp.Limit(claim.variable, t, sp.oo), claim.point, evaluate=False)
+
+
+def _decidable(claim: Claim) -> sp.Basic:
+    """Return a claim as a relation that models decide: an asymptotic one as a limit in time."""
+    if not isinstance(claim, Asymptotic):
+        return sp.true if isinstance(claim, Property) else claim.relation
+    rest = (claim.lhs - claim.rhs) / claim.order
+    variable, point = claim.variable, claim.point
+    if variable != t and point == sp.oo:
+        rest, variable = rest.subs(_CYCLES, t / _T), t
+    elif not isinstance(variable, sp.Symbol):  # a field, which tends to the point
+        variable, point = t, sp.oo
+    return sp.Eq(sp.Limit(rest, variable, point), 0, evaluate=False)
+
+
 def falsify(
     hypotheses: Iterable[sp.Basic],
     claim: sp.Basic,
@@ -92,127 +141,114 @@ def falsify(
 
     The models violate ``dropped``, a hypothesis or the domain of a quantity.
     """
-    hypotheses = imposed = tuple(hypotheses)
-    free = frozenset[sp.Expr]()
-    if dropped is not None:
-        hypotheses = imposed = tuple(h for h in hypotheses if h != dropped)
-        free = quantities(dropped) if _is_domain(dropped) else free
-        imposed = (*((dropped.negated,) if isinstance(dropped, _ORDERS) else ()), *hypotheses)
-    absent = sp.false if dropped is None else dropped
+    kept = (h for h in hypotheses if h != dropped)
+    relations = (*kept, sp.false if dropped is None else dropped, claim)
+    if isinstance(dropped, _ORDERS) and dropped == domain(dropped.lhs):
+        relations = tuple(_without_domain(relation, dropped.lhs) for relation in relations)
+    *others, absent, _ = relations
+    imposed = (*((absent.negated,) if isinstance(absent, _ORDERS) else ()), *others)
     models = decided = doubtful = 0
     seeds = sorted(range(draws), key=lambda seed: dropped is not None and slides_fast(seed))
-    for trial in _models((*hypotheses, absent, claim), imposed, seeds, free):
-        *given, without, claimed = trial.relations
-        fits = trial.fits(given, free)
+    for model, wanted in _models(relations, imposed, seeds):
+        *given, without, claimed = wanted
+        about = quantities(sp.Tuple(*wanted)), _varied(wanted)
+        fits = _fits(model, tuple(given), *about, model.times)
         doubtful += fits is None
         if dropped is None and models - decided + doubtful > draws // 3:
             break  # further models would be as undecided
-        if not fits or truth(without, trial.model).holds is not False:
+        if not fits or truth(without, model).holds is not False:
             continue
         models += 1
-        outcome = truth(claimed, trial.model)
+        outcome = truth(claimed, model)
         if outcome.holds is False:
-            if not trial.fits(given, free):  # now that the fields are known for longer
-                continue
+            if not _fits(model, tuple(given), *about, model.times):
+                continue  # now that the fields are known for longer
             named = without.args if isinstance(without, _ORDERS) else ()
-            described = trial.described(given, sp.Tuple(without, claimed), named)
-            found = Counterexample(described, outcome.where, trial.seed)
-            return TrialResult(found, models, decided + 1)
+            drawn = _described(model, given, sp.Tuple(without, claimed), named)
+            return TrialResult(Counterexample(drawn, outcome.where), models, decided + 1)
         decided += outcome.holds is True
-        if decided >= (enough if trial.model.states else 3 * enough):
+        if decided >= (enough if model.states else 3 * enough):
             break
     return TrialResult(None, models, decided, doubtful)
 
 
-@dataclass(frozen=True)
-class _Trial:
-    """A model, and the relations with its contact law."""
+def _without_domain(relation: sp.Basic, quantity: sp.Expr) -> sp.Basic:
+    """Write a quantity as one that may be any real number."""
+    if not quantity.args:
+        return relation.xreplace({quantity: sp.Symbol(quantity.name, real=True)})
+    return relation.replace(quantity.func, sp.Function(quantity.func.__name__, real=True))
 
-    model: Model
-    relations: tuple[sp.Basic, ...]
-    seed: int
 
-    def fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool | None:
-        """Return whether the model satisfies the hypotheses and the domains of quantities.
+@lru_cache(maxsize=300)
+def _fits(
+    model: Model,
+    given: Relations,
+    about: frozenset[sp.Expr],
+    varied: frozenset[sp.Symbol],
+    times: tuple[fmpq, ...],  # noqa: ARG001 - those of the model, a part of the key of the cache
+) -> bool | None:
+    """Return whether a model satisfies the hypotheses and the domains of quantities.
 
-        The result is kept for further claims, until the fields are known at more times.
-        """
-        key = tuple(given), free, frozenset(self._varied()), self.model.times
-        known = self.model.satisfied
-        if key not in known:
-            known[key] = self._fits(given, free)
-        return known[key]
+    It may be asked again for further claims, and when the fields are known at more times.
+    """
+    fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
 
-    def _fits(self, given: Iterable[sp.Basic], free: frozenset[sp.Expr]) -> bool | None:
-        fixed = {h.lhs for h in given if isinstance(h, sp.Eq) and h.rhs.is_number}
-        bounded = quantities(sp.Tuple(*self.relations)) - fixed.union(free)
-        demands = sorted((*given, *map(domain, bounded)), key=self._rests_on_a_limit)
-        pairs = [(demand, self.model) for demand in demands]
-        pairs += [(demand, neighbour) for neighbour in self._neighbours() for demand in given]
-        doubtful = False
-        for demand, model in pairs:
-            outcome = truth(demand, model)
-            if outcome.holds is False or outcome.where:
-                return False
-            doubtful |= outcome.holds is None
-        return None if doubtful else True
-
-    def _rests_on_a_limit(self, relation: sp.Basic) -> bool:
-        """Return whether a relation needs limits, whose evaluation is expensive."""
-        values = (self.model.values.get(q, q) for q in quantities(relation))
+    def rests_on_a_limit(relation: sp.Basic) -> bool:  # whose evaluation is expensive
+        values = (model.values.get(q, q) for q in quantities(relation))
         return sp.Tuple(relation, *values).has(sp.Limit)
 
-    def _varied(self) -> set[sp.Symbol]:
-        """Return the data by which the relations have derivatives."""
-        slopes = (slope for relation in self.relations for slope in slopes_over_data(relation))
-        return {variable for slope in slopes for variable in slope.variables}
+    domains = (d for d in map(domain, about - fixed) if d is not None)
+    demands = sorted((*given, *domains), key=rests_on_a_limit)
+    pairs = [(demand, model) for demand in demands]
+    for datum in varied:  # the hypotheses hold nearby too, so that they may be differentiated
+        value = model.values.get(datum)
+        if value is not None and value.is_Rational:
+            near = model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
+            pairs += [(demand, near) for demand in given]
+    doubtful = False
+    for demand, where in pairs:
+        outcome = truth(demand, where)
+        if outcome.holds is False or outcome.where:
+            return False
+        doubtful |= outcome.holds is None
+    return None if doubtful else True
 
-    def _neighbours(self) -> Iterator[Model]:
-        """Yield models with a datum slightly changed, for claims with derivatives by data.
 
-        The hypotheses must hold there too.
-        """
-        for datum in self._varied():
-            value = self.model.values.get(datum)
-            if value is not None and value.is_Rational:
-                yield self.model.with_datum(datum, fraction(value) + fmpq(1, 10**6))
+def _varied(relations: Relations) -> frozenset[sp.Symbol]:
+    """Return the data by which relations have derivatives."""
+    slopes = frozenset[sp.Expr]().union(*map(slopes_over_data, relations))
+    return frozenset(variable for slope in slopes for variable in slope.variables)
 
-    def described(
-        self, given: Iterable[sp.Basic], relations: sp.Basic, named: Iterable[sp.Basic]
-    ) -> tuple[sp.Eq, ...]:
-        """Return the drawn values of the quantities on which relations rest.
 
-        Quantities whose values are hypotheses are omitted; those in ``named`` are always shown.
-        """
-        known = {
-            h.lhs for h in given if isinstance(h, sp.Eq) and (h.rhs.is_number or h.rhs.is_Symbol)
-        }
-        starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)}
-        drawn = dependencies((relations,), self.model.values) - known - starts
-        ordered = sorted(drawn, key=lambda q: (bool(q.args), str(q)))
-        equations = (self._drawn(quantity, quantity in named) for quantity in ordered)
-        return tuple(equation for equation in equations if equation is not None)
+def _described(
+    model: Model, given: Iterable[sp.Basic], relations: sp.Basic, named: Iterable[sp.Basic]
+) -> tuple[sp.Eq, ...]:
+    """Return the drawn values of the quantities on which relations rest.
 
-    def _drawn(self, quantity: sp.Expr, named: bool) -> sp.Eq | None:
-        """Return the value of a drawn quantity; None if others determine it, unless ``named``."""
-        if quantity in self.model.states:
-            quantity = quantity.subs(t, 0)
-        value = self.model.values.get(quantity)
-        if named and value is not None:
-            value = self.model.inlined(value)
-        determined = (AppliedUndef, sp.Derivative, sp.Limit)
-        if value is None or value.atoms(*determined) or not (quantity.args or value.is_Rational):
-            return None
-        return sp.Eq(quantity, value, evaluate=False)
+    Quantities whose values are hypotheses or follow from others are omitted; those in ``named``
+    are always shown.
+    """
+    known = {h.lhs for h in given if isinstance(h, sp.Eq) and (h.rhs.is_number or h.rhs.is_Symbol)}
+    starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)}
+    drawn = []
+    rests_on = dependencies((relations,), model.values) - known - starts
+    for quantity in sorted(rests_on, key=lambda q: (bool(q.args), str(q))):
+        name = quantity.subs(t, 0) if quantity in model.states else quantity
+        value = model.values.get(name)
+        if name in named and value is not None:
+            value = model.inlined(value)
+        if value is None or value.has(AppliedUndef, sp.Derivative, sp.Limit, FirstZero):
+            continue
+        if name.args or value.is_Rational:
+            drawn.append(sp.Eq(name, value, evaluate=False))
+    return tuple(drawn)
 
 
 def _models(
-    relations: tuple[sp.Basic, ...],
-    imposed: tuple[sp.Basic, ...],
-    seeds: Iterable[int],
-    free: frozenset[sp.Expr],
-) -> Iterator[_Trial]:
-    """Yield models that are drawn to satisfy ``imposed`` and have values for ``relations``."""
+    relations: Relations, imposed: Relations, seeds: Iterable[int]
+) -> Iterator[tuple[Model, Relations]]:
+    """Yield models that are drawn to satisfy ``imposed``, and the relations with the contact law
+    of each model."""
     trends = sp.Tuple(*relations).has(sp.Limit)
     in_time, imposed_in_time = (_in_time(given, imposed) for given in (relations, imposed))
     for seed in seeds:
@@ -221,52 +257,28 @@ def _models(
         law = seed % len(LAWS)
         wanted = tuple(with_law(relation, law) for relation in in_time)
         given = tuple(with_law(h, law) for h in imposed_in_time)
-        model = draw_model(given, wanted, seed, free)
+        model = draw_model(given, wanted, seed)
         if model is not None:
-            yield _Trial(model, wanted, seed)
+            yield model, wanted
 
 
-def _in_time(
-    relations: tuple[sp.Basic, ...], imposed: tuple[sp.Basic, ...]
-) -> tuple[sp.Basic, ...]:
+def _in_time(relations: Relations, imposed: Relations) -> Relations:
     """Write relations as functions of time t, without other clocks such as N = t/T.
 
     A relation in scaled time holds for any unit of time, and so for the period.
     """
     named = sp.Tuple(*relations).atoms(AppliedUndef, Term)
     if any(isinstance(name, Term) or name.args == (_TAU,) for name in named):
-        relations = tuple(sp.true if r == _CLOCK else _unscaled(r) for r in relations)
+        relations = tuple(map(_unscaled, relations))
     for given in imposed:
-        if not isinstance(given, sp.Eq) or not isinstance(given.lhs, sp.Symbol):
-            continue
-        if t in given.rhs.free_symbols:
-            rest = (r.subs(given.lhs, given.rhs) if r != given else sp.true for r in relations)
-            relations = tuple(rest)
+        if isinstance(given, sp.Eq) and given.lhs.is_Symbol and t in given.rhs.free_symbols:
+            relations = tuple(r.subs(given.lhs, given.rhs) for r in relations)
     return relations
 
 
 def _unscaled(relation: sp.Basic) -> sp.Basic:
-    """Write fields of scaled time as fields of time, and terms as expansion coefficients."""
-    terms = {term: _expanded(term) for term in relation.atoms(Term)}
-    hidden = {term: sp.Dummy() for term in terms}
+    """Write fields and terms of expansions in scaled time as those of time."""
+    terms = {term: ExpansionTerm(term, sp.S.Zero) for term in relation.atoms(Term)}
     fields = {f: f.func(t) for f in relation.atoms(AppliedUndef) if f.args == (_TAU,)}
     rates = {f.diff(_TAU): _T * now.diff(t) for f, now in fields.items()}
-    written = relation.xreplace(hidden).xreplace(rates).xreplace(fields).xreplace({_TAU: t / _T})
-    return written.xreplace({dummy: terms[term] for term, dummy in hidden.items()})
-
-
-def _expanded(term: Term) -> ExpansionCoefficient:
-    n, *law = term.args
-    order, phase = (sp.S.NegativeOne, sp.S.Zero) if isinstance(term, Drift) else (sp.S.Zero, t / _T)
-    return ExpansionCoefficient(n, order, *law, phase)
-
-
-def domain(quantity: sp.Expr) -> sp.Basic:
-    """Return the domain of a quantity, by the assumptions of its symbol."""
-    if quantity.is_positive:
-        return sp.Gt(quantity, 0, evaluate=False)
-    return sp.Ge(quantity, 0, evaluate=False) if quantity.is_nonnegative else sp.true
-
-
-def _is_domain(relation: sp.Basic) -> bool:
-    return isinstance(relation, (sp.Gt, sp.Ge)) and relation == domain(relation.lhs)
+    return relation.xreplace(rates).xreplace({**terms, **fields}).xreplace({_TAU: t / _T})

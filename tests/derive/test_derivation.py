@@ -11,7 +11,7 @@ import sympy as sp
 from derive import catalogue
 from derive.check import step_checks
 from derive.equations import TEXTS, Equation, Status, numbered
-from derive.falsifier.judgements import try_on_models
+from derive.falsifier.verdict import try_on_models
 from derive.hypotheses import Hypothesis
 from derive.kernel import Judgement, RuleError, chain, infer, replay_fault
 from derive.laws import EXPONENTIAL, GENERAL, LAWS, TANH

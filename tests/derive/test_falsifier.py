@@ -30,6 +30,24 @@ def test_hypotheses_that_exclude_each_other_are_vacuous():
     assert falsify((sp.Gt(f_c, 1), sp.Lt(f_c, 0)), sp.Eq(h_0, 1)).vacuous
 
 
+def test_a_false_hypothesis_is_vacuous():
+    assert falsify((sp.false,), sp.Eq(h_0, 1)).vacuous
+
+
+def test_an_infinite_side_is_shown_with_its_sign():
+    sinking = falsify((), sp.Eq(forever(-h_0 * t), -sp.oo))
+    assert "0 on the left, -oo on the right" in str(sinking)
+
+
+def test_a_counterexample_has_no_values_that_equations_determine():
+    """The deflection of a support under pressure is the root of its equation."""
+    p, U_c, k = symbols("p U_c k")
+    given = (sp.Eq(p, p_max * sp.exp(-(h_0 + U_c) / h_0)), sp.Eq(k * U_c - p, 0))
+    broken = falsify(given, sp.Eq(U_c, 1)).counterexample
+    assert {str(e.lhs) for e in broken.model} == {"h_0", "k", "p_max"}
+    assert "0.358912 on the left, 1 on the right" in broken.where
+
+
 def test_a_condition_against_the_model_is_vacuous_however_it_is_spelled():
     """A support under pressure is deflected."""
     p, U_c, k = symbols("p U_c k")

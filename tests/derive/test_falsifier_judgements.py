@@ -3,7 +3,7 @@
 import sympy as sp
 
 from derive import catalogue
-from derive.falsifier.judgements import counterexample_without, try_on_models
+from derive.falsifier.verdict import counterexample_without, try_on_models
 from derive.reasons import outdated, table
 from derive.rules.drift import LeadingTerm
 from derive.symbols import symbols

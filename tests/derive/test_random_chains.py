@@ -13,7 +13,7 @@ import sympy as sp
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from derive.falsifier.judgements import try_on_models
+from derive.falsifier.verdict import try_on_models
 from derive.hypotheses import CONSTANT, PERIODIC, Hypothesis, Kind
 from derive.kernel import Judgement, Rule, RuleError, infer
 from derive.rules import algebra, calculus, data, drift, growth, inequalities, limits, solutions
