@@ -78,6 +78,8 @@ class Rule(ABC):
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    alone = ""
+    """The sentence without premises, if another one."""
     premise_names: ClassVar[tuple[str, ...]] = ()
     """What the first premises are, in order, for messages; others may follow."""
     source = "elementary"
@@ -95,7 +97,8 @@ class Rule(ABC):
         """Return a sentence on this application of the rule, with the labels of the premises."""
         fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
         places = {"all": listed(labels), "others": listed(labels[1:])}
-        return self.words.format(*labels, **places, **fields)
+        words = self.words if labels or not self.alone else self.alone
+        return words.format(*labels, **places, **fields)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,12 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
-from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..reals import holds, sign
 from ..zero import is_zero
 from .proving import continuity, facts_of, require, require_defined, smooth
@@ -28,14 +27,13 @@ class Arithmetic(Rule):
     """A relation that follows from the premises in the real numbers."""
 
     claim: sp.Basic
+    words = "This follows from {all}."
+    alone = "This holds for all numbers."
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         require(self.claim, *premises)
         return Conclusion(claim_of(self.claim))
-
-    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
-        return f"This follows from {listed(labels)}." if labels else "This holds for all numbers."
 
 
 @dataclass(frozen=True)
