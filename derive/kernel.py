@@ -24,7 +24,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
 from functools import cache
-from typing import ClassVar
+from typing import ClassVar, dataclass_transform
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -73,8 +73,10 @@ class Conclusion:
     discharges: tuple[Hypothesis, ...] = ()
 
 
+@dataclass_transform(frozen_default=True)
 class Rule(ABC):
-    """A theorem.  Its fields are the author's choices; its conditions are proved from premises."""
+    """A theorem, as frozen data: its fields are the author's choices; its conditions are proved
+    from premises."""
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
@@ -84,6 +86,9 @@ class Rule(ABC):
     """What the first premises are, in order, for messages; others may follow."""
     source = "elementary"
     """A reference for the theorem."""
+
+    def __init_subclass__(cls) -> None:
+        dataclass(frozen=True)(cls)
 
     def __call__(self, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
         """Return the judgement that follows from premises, as ``infer`` does."""

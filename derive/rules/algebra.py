@@ -8,8 +8,6 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from ..claims import Claim, Equality, Inequality, Limit, claim_of
@@ -21,7 +19,6 @@ from .proving import require, require_defined, smooth
 from .reading import equality, replaced
 
 
-@dataclass(frozen=True)
 class Substitute(Rule):
     """A claim and ``l = r`` give the claim with r for l."""
 
@@ -53,7 +50,6 @@ def _put(claim: Claim, known: Equality) -> Claim:
 substitute = Substitute()
 
 
-@dataclass(frozen=True)
 class Solve(Rule):
     """``a x + b = c x + d`` with ``a != c`` gives x; further premises show that ``a != c``."""
 
@@ -87,7 +83,6 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     return expr
 
 
-@dataclass(frozen=True)
 class Insert(Rule):
     """An equation that becomes an identity when the equalities and limits among the premises are
     inserted, in order; ``ln a = b`` may also become ``a = e^b``."""
@@ -108,7 +103,6 @@ class Insert(Rule):
         return Conclusion(Equality(*self.claim.args))
 
 
-@dataclass(frozen=True)
 class Consequence(Rule):
     """A claim that becomes the first premise when the others are inserted into both."""
 

@@ -8,7 +8,6 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Collection, Set
-from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -81,7 +80,6 @@ def _is_pressure_law(relation: sp.Basic) -> bool:
     return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
-@dataclass(frozen=True)
 class DataDerivative(Rule):
     """``y = F(a, ...)`` gives ``dy/da``: F is a function of data, of which a varies alone.
 

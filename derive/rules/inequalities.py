@@ -10,8 +10,6 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
@@ -22,7 +20,6 @@ from .proving import continuity, facts_of, require, require_defined, smooth
 from .reading import inequality
 
 
-@dataclass(frozen=True)
 class Arithmetic(Rule):
     """A relation that follows from the premises in the real numbers."""
 
@@ -36,7 +33,6 @@ class Arithmetic(Rule):
         return Conclusion(claim_of(self.claim))
 
 
-@dataclass(frozen=True)
 class Monotone(Rule):
     """``a >= b`` gives ``F(a) >= F(b)`` for an increasing F, ``<=`` for a decreasing one."""
 
@@ -61,7 +57,6 @@ class Monotone(Rule):
         return Conclusion(Inequality(relation[direction < 0](high, low, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class Lipschitz(Rule):
     """``-1 <= F' <= 0`` everywhere gives ``0 <= c (F(a) - F(a + d)) <= c d`` for c, d >= 0."""
 
@@ -88,7 +83,6 @@ class Lipschitz(Rule):
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class LogarithmicSlope(Rule):
     """``|F'/F| <= m`` for F > 0 gives ``|ln(F(a)/F(b))| <= m |a - b|``."""
 
@@ -116,7 +110,6 @@ class LogarithmicSlope(Rule):
         return Conclusion(Inequality(sp.Le(sp.Abs(sp.log(ratio)), bound, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class Threshold(Rule):
     """``F(x) > e`` if and only if ``x > x*``: F increases on x > 0, and F(x*) = e with x* > 0."""
 

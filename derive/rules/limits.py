@@ -12,8 +12,6 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -59,7 +57,6 @@ def in_time(expr: sp.Expr, value: sp.Expr) -> Limit:
     return Limit(expr, t, sp.oo, value)
 
 
-@dataclass(frozen=True)
 class OnePeriodLater(Rule):
     """A claim that holds at every time holds one period later."""
 
@@ -82,7 +79,6 @@ def _at_one_time(expr: sp.Basic) -> bool:
     return not clocks(expr) and not any(t in bound(node) for node in nodes)
 
 
-@dataclass(frozen=True)
 class Vanishes(Rule):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
@@ -102,7 +98,6 @@ class Vanishes(Rule):
 vanishes = Vanishes()
 
 
-@dataclass(frozen=True)
 class Passes(Rule):
     """Limits pass through a function that is continuous at them, and through one period.
 
@@ -165,7 +160,6 @@ def _cancelled(expr: sp.Expr) -> sp.Expr:
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
 
 
-@dataclass(frozen=True)
 class Accumulates(Rule):
     """``du/dt -> R``, finite: the wear of one period tends to ``R T``."""
 
