@@ -19,7 +19,7 @@ from derive.rules.inequalities import Arithmetic, Monotone
 from derive.rules.limits import Passes
 from derive.symbols import symbols
 from derive.time_limit import TimeLimitError, time_limit
-from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, supposed
+from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, supposed, tends
 from tests.derive.test_language import Positive
 
 h, f_c, h_0, q, L = symbols("h f_c h_0 q L")
@@ -207,3 +207,18 @@ def test_limits_of_time_may_be_nested() -> None:
 
     with pytest.raises(TimeLimitError, match="outer"), time_limit(0.1, "outer"):
         endless()
+
+
+@pytest.mark.parametrize(
+    "known",
+    [
+        (tends(h, 0), gt(h, 0)),
+        (tends(h, 0), ne(h, 0)),
+        (tends(h, sp.oo), ge(h, h_0), tends(h - h_0, sp.oo)),
+        (tends(h, h_0), eq(f_c * h, h_0), tends(f_c * h, h_0)),
+    ],
+    ids=str,
+)
+def test_limits_that_do_not_contradict_hypotheses(known: tuple[Judgement, ...]) -> None:
+    """A limit need not be reached, and keeps no strictness."""
+    assert Arithmetic(sp.Gt(L, -L, evaluate=False))(*known)

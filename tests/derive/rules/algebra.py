@@ -231,6 +231,14 @@ FAMILIES = (
         # the load begins at U_a(0) = 1: it need not be U_a = 0
         "a first closure, and the closure": ("more is said of h", equal(initial("h"), h_0),
             called(STARTS[0], Kind.INITIAL), eq(h, h_0 - U_a)),
+        "a wear without bound, and its limit": ("contradict", TRIVIAL, tends(u_c, sp.oo),
+            tends(u_c, h_0)),
+        "a wear without bound, and a bound": ("contradict", TRIVIAL, tends(u_c, sp.oo),
+            le(sp.Abs(u_c), h_0)),
+        "two limits": ("contradict", TRIVIAL, tends(G, q), tends(G, 2 * q)),
+        "a limit above a bound": ("contradict", TRIVIAL, tends(G, q), lt(G, 0)),
+        "a limit above what falls": ("contradict", TRIVIAL, tends(G, sp.oo), tends(-G, h_0)),
+        "a constant load that grows": ("contradict", TRIVIAL, CONSTANTLY, eq(U_a, C * t)),
         "a rough pin that is smooth": ("contradict", equal(h, h_0),
             called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
     }),
@@ -291,6 +299,8 @@ FAMILIES = (
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
         "what is constant wherever wear has a rate": ("is constant", b_0, G, ALMOST, eq(u_c, h_0)),
+        "the mean over all cycles so far": ("is constant", U_mean,  # N h_0 under U_a = h_0
+            sp.Integral(U_a, (t, 0, N * T)) / T),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (
