@@ -96,9 +96,10 @@ class Insert(Rule):
         if not isinstance(self.claim, sp.Equality):
             raise RuleError(f"missing premise: {self.claim} is an equality")
         left, right = self.claim.args
+        forms = [left - right]
         if isinstance(left, sp.log):
-            left, right = left.args[0], sp.exp(right)
-        if not is_zero(inserted(left - right, premises)):
+            forms.insert(0, left.args[0] - sp.exp(right))
+        if not any(is_zero(inserted(form, premises)) for form in forms):
             raise RuleError(f"missing premise: {self.claim} is no identity")
         return Conclusion(Equality(*self.claim.args))
 

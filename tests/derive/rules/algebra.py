@@ -176,6 +176,7 @@ FAMILIES = (
     }),
     Family(lambda inside, value, *known: Insert(equal(sp.log(inside), value))(*known), (
         (kappa, f_c, eq(kappa, sp.exp(f_c))), (f_c, sp.log(f_c), ROUGHENS),
+        (kappa, h, eq(sp.log(kappa), h)),
     ), {
         "the logarithm of a bound": ("no identity", kappa, f_c, ge(kappa, sp.exp(f_c))),
         "the logarithm of what may be negative": ("h.* > 0", h, sp.log(h_0), eq(h**2, h_0**2)),
