@@ -239,7 +239,7 @@ FAMILIES = (
         "two limits": ("contradict", TRIVIAL, tends(G, q), tends(G, 2 * q)),
         "a limit above a bound": ("contradict", TRIVIAL, tends(G, q), lt(G, 0)),
         "a limit above what falls": ("contradict", TRIVIAL, tends(G, sp.oo), tends(-G, h_0)),
-        "a constant load that grows": ("contradict", TRIVIAL, CONSTANTLY, eq(U_a, C * t)),
+        "a constant load that rises with time": ("contradict", TRIVIAL, CONSTANTLY, eq(U_a, C * t)),
         "a rough pin that is smooth": ("contradict", equal(h, h_0),
             called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
     }),
