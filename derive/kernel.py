@@ -24,7 +24,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
 from functools import cache
-from typing import ClassVar
+from typing import ClassVar, dataclass_transform
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -73,15 +73,22 @@ class Conclusion:
     discharges: tuple[Hypothesis, ...] = ()
 
 
+@dataclass_transform(frozen_default=True)
 class Rule(ABC):
-    """A theorem.  Its fields are the author's choices; its conditions are proved from premises."""
+    """A theorem, as frozen data: its fields are the author's choices; its conditions are proved
+    from premises."""
 
     words = ""
     """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    alone = ""
+    """The sentence without premises, if another one."""
     premise_names: ClassVar[tuple[str, ...]] = ()
     """What the first premises are, in order, for messages; others may follow."""
     source = "elementary"
     """A reference for the theorem."""
+
+    def __init_subclass__(cls) -> None:
+        dataclass(frozen=True)(cls)
 
     def __call__(self, *premises: Judgement, name: str = "", remark: str = "") -> Judgement:
         """Return the judgement that follows from premises, as ``infer`` does."""
@@ -95,7 +102,8 @@ class Rule(ABC):
         """Return a sentence on this application of the rule, with the labels of the premises."""
         fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
         places = {"all": listed(labels), "others": listed(labels[1:])}
-        return self.words.format(*labels, **places, **fields)
+        words = self.words if labels or not self.alone else self.alone
+        return words.format(*labels, **places, **fields)
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,7 +255,11 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
         raise RuleError("h(0) = h_0, and more is said of h: two equations of the model")
     equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
     given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
-    if len(set(given)) < len(given) or contradictory(_at_times(hypotheses)):
+    if (
+        len(set(given)) < len(given)
+        or contradictory(_at_times(hypotheses))
+        or contradictory(_at_last([h.relation for h in hypotheses]))
+    ):
         raise RuleError("the hypotheses contradict each other")
 
 
@@ -258,7 +270,35 @@ def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
     fields = frozenset[sp.Basic]().union(*(relation.atoms(AppliedUndef) for relation in now))
     times = frozenset(f.args[0] for f in fields if f.func.__name__ in QUANTITIES) | {sp.S.Zero}
     implied = (said for relation in now for said in _implied(relation, times - {t}))
-    return frozenset((*pressed, *now, *implied))
+    return frozenset((*pressed, *now, *implied, sp.Gt(t, 0)))
+
+
+def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:
+    """Return relations at a late time, and between limits, which keep an order but no strictness.
+
+    Then what tends to infinity exceeds every constant, and the rest is near its limit.
+    """
+    said = [part for relation in relations for part in sp.And.make_args(relation)]
+    limits = [r for r in said if isinstance(r, sp.Eq) and isinstance(r.lhs, sp.Limit)]
+    if not limits:
+        return frozenset()
+    ends = [(limit.lhs.args[0], limit.rhs) for limit in limits]
+    orders = [_WEAK[r.func](*r.args, evaluate=False) for r in said if r.func in _WEAK]
+    orders += [sp.Eq(part, end, evaluate=False) for part, end in ends]
+    sides = {side for order in orders for side in order.args if not side.has(sp.Limit)}
+    still = {c for c in sides if c.is_real and CLOCKS.isdisjoint(map(str, c.free_symbols))}
+    facts, margin = {*said}, sp.Dummy(positive=True)
+    for part, end in ends:
+        if end.is_finite is False:
+            large = part if end is sp.oo else -part
+            facts |= {sp.Gt(large, sign * c + margin) for c in still | {0} for sign in (1, -1)}
+        else:
+            facts.add(sp.Lt(sp.Abs(part - end), margin))
+            facts |= {r.xreplace({part: end}) for r in orders if still | {part} >= {*r.args}}
+    return frozenset(facts)
+
+
+_WEAK = {relation: relation for relation in (sp.Eq, sp.Ge, sp.Le)} | {sp.Gt: sp.Ge, sp.Lt: sp.Le}
 
 
 @cache

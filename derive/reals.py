@@ -56,9 +56,10 @@ def holds(goal: sp.Basic, facts: frozenset[sp.Basic] = frozenset()) -> bool:
         return bool(goal)
     if goal in facts:
         return True
+    forms = [goal]
     if goal.has(sp.tanh) and goal.has(sp.exp):
-        goal = goal.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
-    return any(_refuted(known, goal) for known in (_relevant(goal, facts), facts))
+        forms.insert(0, goal.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x))))
+    return any(_refuted(known, form) for form in forms for known in (_relevant(form, facts), facts))
 
 
 @cache
@@ -121,7 +122,7 @@ class _Translator:
         return _RELATIONS[type(relation)](*map(self.number, relation.args))
 
     def number(self, expr: sp.Expr) -> z3.ArithRef:
-        """Return an expression for z3, with opaque parts except in polynomials and roots."""
+        """Return an expression for z3, with opaque parts except in polynomials, roots, pieces."""
         if isinstance(expr, sp.Rational):
             return z3.Q(int(expr.p), int(expr.q))
         if isinstance(expr, sp.Add):
@@ -139,6 +140,13 @@ class _Translator:
         if isinstance(expr, sp.Abs):
             inside = self.number(expr.args[0])
             return z3.If(inside >= 0, inside, -inside)
+        if isinstance(expr, sp.Piecewise) and expr.args[-1].cond == sp.true:
+            *pieces, (last, _) = expr.args
+            value = self.number(last)
+            for piece, condition in reversed(pieces):
+                on = self.relation(condition)
+                value = z3.If(z3.FreshBool() if on is None else on, self.number(piece), value)
+            return value
         if expr not in self.names:
             self.names[expr] = z3.Real(f"x{len(self.names)}")
             self._opaque(expr, self.names[expr])

@@ -30,9 +30,7 @@ _ATOMS = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 def script(step: Step, way: int | None = None) -> str:
     """Return the proof of a step: by the tactic with number ``way``, or the first to succeed."""
     cited = theorems.proof(step)
-    if not cited and step.rule == "Discharge":
-        cited = "\n".join(_discharged(step))
-    elif not cited and (step.limits or step.relation.has(sp.Limit)):
+    if not cited and (step.limits or step.relation.has(sp.Limit)):
         cited = "\n".join(limits.proof(step))
     if cited:
         return f"{step.introduction}\n{cited}"
@@ -43,21 +41,6 @@ def script(step: Step, way: int | None = None) -> str:
         return "\n".join((step.introduction, *start, f"{next(islice(tactics, way, None))}."))
     trials = (f'timeout 12 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(tactics))
     return "\n".join((step.introduction, *start, "first [\n  " + "\n| ".join(trials) + "]."))
-
-
-def _discharged(step: Step) -> Iterator[str]:
-    """Yield the proof by the first parent, whose additional premises follow from the others."""
-    (first, premises), *_ = step.missing
-    for premise in premises:
-        fixed = "intros t Ht; " if premise.timed else ""
-        tactics = [*inequality(step, premise.relation)]
-        if premise.timed:
-            tactics.append("; ".join([*(line[:-1] for line in step.signs()), tactics[0]]))
-        ways = " | ".join(f"solve [{way}]" for way in tactics)
-        yield f"assert ({premise.label}_met : {premise.proposition}) by ({fixed}first [{ways}])."
-    labels = step.labels | {p.proposition: f"{p.label}_met" for p in premises}
-    cited = (labels[p.proposition] for p in first.statement.premises)
-    yield f"exact ({' '.join((first.name, *cited))})."
 
 
 def _sources(step: Step) -> Iterator[list[Step]]:
@@ -88,7 +71,8 @@ def _factor(step: Step, given: sp.Equality) -> sp.Expr:
     slope = sp.diff(flat, dummy)
     if isinstance(unknown, _ATOMS) and slope != 0 and not slope.has(dummy):
         return 1 / slope
-    return getattr(step.judgement.rule, "factor", sp.S.One)
+    factor = sp.cancel(unknown / given.lhs) if given.lhs != 0 else sp.S.One
+    return factor if step.relation.rhs == factor * given.rhs else sp.S.One
 
 
 def _inserted(goal: sp.Basic, equations: Sequence[sp.Equality]) -> sp.Basic:

@@ -25,7 +25,7 @@ from sympy.logic.boolalg import BooleanTrue
 from ..claims import Predicate
 from ..kernel import Judgement
 from .printer import UntranslatableError
-from .statements import Premise, Statement, claim, key, statement
+from .statements import Statement, claim, key, statement
 
 RECORD = Path(__file__).parent / "record.json"
 
@@ -148,15 +148,6 @@ class Step:
                     usable.setdefault(step.name, step)
             row = list(dict.fromkeys(p for step in row for p in step.parents))
         return list(usable.values())
-
-    @property
-    def missing(self) -> list[tuple[Step, list[Premise]]]:
-        """Return the parents with premises that this step lacks, and these premises."""
-        lacking = (
-            (p, [q for q in p.statement.premises if q.proposition not in self.labels])
-            for p in self.parents
-        )
-        return [(parent, premises) for parent, premises in lacking if premises]
 
     @cached_property
     def hypotheses(self) -> list[Step]:

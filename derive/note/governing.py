@@ -27,7 +27,7 @@ from ..equations import Proved
 from ..hypotheses import SMOOTH_PIN, UNCOUPLED, UNWORN_PIN, Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
-from ..rules.algebra import Insert, Solve, restrict, substitute
+from ..rules.algebra import Insert, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.calculus import SPRINGS, differentiate, integrate
 from ..rules.inequalities import Arithmetic
@@ -120,7 +120,8 @@ class NoteModel:
     @cached_property
     def pressure_in_contact(self) -> Judgement:
         """Eq. (7e) where contact is active."""
-        return restrict(self.pressure_with_cutoff, assume(self.in_contact))
+        contact = assume(self.in_contact)
+        return Arithmetic(model.at_every_closure(self.law))(self.pressure_with_cutoff, contact)
 
     @cached_property
     def archard(self) -> tuple[Judgement, Judgement, Judgement, Judgement]:
@@ -183,7 +184,8 @@ class NoteModel:
         """The equivalent roughness in terms of the wear of both solids."""
         combined = substitute(self.roughness, self.roughness_of_pin)
         if not self.pin.rough:
-            combined = restrict(combined, self.rough, remark="a smooth pin leaves no square root")
+            remark = "a smooth pin leaves no square root"
+            combined = Arithmetic(sp.Eq(sigma, sigma_c))(combined, self.rough, remark=remark)
         return substitute(combined, self.roughness_of_bearing)
 
     @cached_property

@@ -19,9 +19,10 @@ from sympy.core.function import AppliedUndef
 
 from ..hypotheses import UNSATURATED, Hypothesis
 from ..kernel import Judgement
-from ..results.first_integral import log_odds
-from ..rules.algebra import Solve, discharge
+from ..results.first_integral import log_odds_of
+from ..rules.algebra import Solve
 from ..rules.assumption import assume
+from ..rules.inequalities import Arithmetic
 from ..symbols import symbols, t
 from .condensed import two_solids
 
@@ -34,6 +35,7 @@ _model = two_solids()
 _roughness = (_model.roughness_of_pin, _model.roughness_of_bearing, _model.roughness)
 _u_a_rate, _, _u_c_rate, _ = _model.wear_laws
 _pressure = Solve(p)(_model.reaction)
+_unsaturated = Arithmetic(UNSATURATED.relation)(_pressure, assume(CARRIED))
 
 problem_i = (
     _pressure,
@@ -41,7 +43,7 @@ problem_i = (
     _u_c_rate,
     *_roughness,
     _model.deflection,
-    discharge(Solve(h)(log_odds), UNSATURATED, _pressure, assume(CARRIED)),
+    Solve(h)(log_odds_of(_unsaturated)),
     Solve(U_a)(_model.closure),
 )
 """The reaction R_a of the pin is given: the pressure is prescribed, and wear follows directly."""

@@ -32,7 +32,7 @@ from ..results.steady_state import (
     roughness,
     steady_state,
 )
-from ..rules.algebra import Identity, Insert, substitute
+from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, define, defined
 from ..rules.drift import first_order
 from ..rules.growth import AtInfinity, Diverges
@@ -90,7 +90,7 @@ limit_argument = Passes(sp.Eq(forever(argument), 4 - 2 / f_c))(
 )
 """(17), second line: the argument of tanh tends to 4 - 2/f_c."""
 
-constant_bracket = Identity(sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0)))(
+constant_bracket = Insert(sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0)))(
     name="bracket of (16)",
     remark="a constant for each load, zero only for one load: (16) as printed is false",
 )

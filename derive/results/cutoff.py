@@ -40,7 +40,7 @@ from ..hypotheses import (
 )
 from ..laws import TANH
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Identity, Insert, Solve, substitute
+from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, define, defined
 from ..rules.calculus import differentiate
 from ..rules.growth import intermittent
@@ -62,10 +62,10 @@ outgrown, rougher, third = map(assume, (OUTGROWN, ROUGHER, THIRD))
 contact_condition = Arithmetic(*stated("contact-condition"))(name="contact condition")
 """Contact as a condition on the wear."""
 
-margin = Identity(*stated("margin"))(name="margin and wear")
+margin = Insert(*stated("margin"))(name="margin and wear")
 """The margin is linear in the wear, and for f_c = 1/3 independent of it."""
 
-margin_rate = Identity(*stated("margin-rate"))(assume(DIFFERENTIABLE), name="rate of the margin")
+margin_rate = Insert(*stated("margin-rate"))(assume(DIFFERENTIABLE), name="rate of the margin")
 """The time derivative of the margin: wear lowers it, a rising load raises it."""
 
 _at_peak = define(sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0))

@@ -20,7 +20,7 @@ import sympy as sp
 
 from ..claims import FirstZero
 from ..hypotheses import Hypothesis
-from ..rules.algebra import Identity, substitute
+from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume, defined
 from ..rules.solutions import FirstRoot
 from ..symbols import symbols
@@ -44,7 +44,7 @@ STARTS = Hypothesis(sp.Gt(_product, 0))
 POSSIBLE = Hypothesis(p_1**2 < q**2 * (sigma_a0**2 + sigma_c0**2))
 OPENING = Hypothesis(sp.And(g > 0, _gap > 0))
 
-margin_curvature = Identity(
+margin_curvature = Insert(
     sp.Eq(
         sp.diff(room, u_stop, 2),
         3 * (q**2 * (sigma_a0**2 + sigma_c0**2) - p_1**2) / sigma_stop**3,

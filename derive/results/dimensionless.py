@@ -22,7 +22,7 @@ from ..equations import stated
 from ..kernel import Judgement
 from ..note import condensed
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Multiply
+from ..rules.algebra import Consequence
 from ..rules.assumption import define, defined
 from ..rules.calculus import change_clock
 from ..rules.inequalities import Arithmetic
@@ -79,7 +79,7 @@ def _scaled(
     definitions = tuple(DEFINITIONS[group] for group in groups if group in DEFINITIONS)
     clock = change_clock(SCALES[0], CLOCK)
     factor, pace = (1 / p_max, ()) if claim.lhs == q else (T / sigma_c0, (clock,))
-    first = Multiply(factor)(parent)
+    first = Arithmetic(parent.claim.map(lambda side: factor * side).relation)(parent)
     return Consequence(claim)(first, *pace, *SCALES, *definitions, rough, name="scaled")
 
 

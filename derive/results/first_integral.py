@@ -22,7 +22,7 @@ from ..hypotheses import RIGID, SLOPED, UNSATURATED
 from ..kernel import Judgement
 from ..laws import GENERAL, TANH, ContactLaw
 from ..note.condensed import bearing_only
-from ..rules.algebra import Insert, Logarithm, Solve
+from ..rules.algebra import Insert, Solve
 from ..rules.assumption import assume
 from ..symbols import symbols
 
@@ -39,9 +39,14 @@ def _line(law: ContactLaw) -> Judgement:
 
 closure_line = _line(GENERAL)
 
-log_odds = Logarithm(sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma))(
-    bearing_only().pressure, assume(UNSATURATED), name="log-odds of pressure"
-)
+
+def log_odds_of(unsaturated: Judgement) -> Judgement:
+    """Return Eq. (4) solved for the closure, where 0 < p < p_max."""
+    claim = sp.Eq(sp.log(p / (p_max - p)), 8 - 4 * h / sigma)
+    return Insert(claim)(bearing_only().pressure, unsaturated, name="log-odds of pressure")
+
+
+log_odds = log_odds_of(assume(UNSATURATED))
 """Eq. (4) solved for the closure."""
 
 _closure = Solve(h)(_line(TANH))

@@ -22,7 +22,7 @@ from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note.condensed import bearing_only
 from ..rules.assumption import assume
-from ..rules.data import OneSign
+from ..rules.inequalities import Arithmetic
 from ..symbols import symbols
 from .steady_state import closure, worn
 
@@ -36,6 +36,7 @@ INCREASING = (K_c, V, p_max, U_a, sigma_c0, f_c)
 DECREASING = (H_c, h_0)
 WHILE_APART = (sigma_c0, f_c)
 """Data whose effect needs h > 0."""
+_SLOPE = "the derivative of the rate with respect to a datum, at given wear and load"
 
 
 def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgement:
@@ -47,7 +48,9 @@ def effect(law: ContactLaw, datum: sp.Expr, apart: bool | None = None) -> Judgem
     facts = [problem.roughness_of_bearing, problem.rough]
     if datum in WHILE_APART if apart is None else apart:
         facts += [assume(APART), worn(problem)]
-    return OneSign(datum)(problem.rigid, *facts, name=f"effect of {datum}")
+    slope = sp.diff(problem.rigid.claim.rhs, datum).doit()
+    claim = (sp.Ge if datum in INCREASING else sp.Le)(slope, 0, evaluate=False)
+    return Arithmetic(claim)(problem.rigid, *facts, name=f"effect of {datum}", remark=_SLOPE)
 
 
 wear_increases = tuple(effect(TANH, a) for a in INCREASING if a not in WHILE_APART)

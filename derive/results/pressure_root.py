@@ -26,7 +26,7 @@ from ..hypotheses import UNSATURATED
 from ..kernel import infer
 from ..laws import GENERAL, TANH, r
 from ..note.condensed import two_solids
-from ..rules.algebra import Identity, substitute
+from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Lipschitz
 from ..symbols import symbols
@@ -95,8 +95,8 @@ _distance = y - _end - (y - _at_y) / _steepness
 _bend = sp.diff(TANH.phi, r, 2)
 
 pressure_iteration = (
-    Identity(sp.Eq(_end, _summed))(name="step of Newton's iteration"),
-    Identity(sp.Eq(_distance, (_at_y - _tangent) / _steepness))(
+    Insert(sp.Eq(_end, _summed))(name="step of Newton's iteration"),
+    Insert(sp.Eq(_distance, (_at_y - _tangent) / _steepness))(
         name="distance from the root",
         remark="a curve lies on one side of its tangents where it is curved one way",
     ),

@@ -23,7 +23,7 @@ from ..hypotheses import OPEN_GAP, RIGID, ROUGHENING
 from ..kernel import Judgement
 from ..note.condensed import bearing_only
 from ..note.stabilised import pressure, wear_per_cycle
-from ..rules.algebra import Insert, Logarithm, substitute
+from ..rules.algebra import Insert, substitute
 from ..rules.assumption import assume
 from ..rules.data import DataDerivative
 from ..symbols import symbols
@@ -77,7 +77,7 @@ sensitivity_pressure = (
 
 _odds = sp.log(M / u_cum - 1)
 slope_from_wear = Insert(sp.Eq(f_c, 4 / (8 + _odds)))(
-    Logarithm(sp.Eq(_odds, 4 / f_c - 8))(wear_per_cycle, largest_wear),
+    Insert(sp.Eq(_odds, 4 / f_c - 8))(wear_per_cycle, largest_wear),
     assume(ROUGHENING),
     name="f_c from wear per cycle",
 )

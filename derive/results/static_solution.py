@@ -21,8 +21,9 @@ import sympy as sp
 from ..equations import stated
 from ..hypotheses import CONSTANT, SLOPED, Hypothesis
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Insert, Multiply, Solve, substitute
+from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, defined
+from ..rules.inequalities import Arithmetic
 from ..rules.solutions import ByParts, Lambert, Separate
 from ..symbols import rate, symbols, t
 from .regimes import grown, kept, rough
@@ -70,8 +71,9 @@ _time = Separate(sp.Eq(2 * C * f_c * t, _whole))(
 )
 _time = ByParts(sigma_s + sigma_s * odds, -2 * beta / sigma_s * odds)(_time, rough)
 _time = ByParts(sp.exp(-2 * x_inf) * primitive(sigma_s)[1])(_time, rough, moving)
+_time = Arithmetic(_time.claim.map(lambda side: side / (2 * C * f_c)).relation)(_time, sloped)
 time = Consequence(stated("static-solution")[0])(
-    Multiply(1 / (2 * C * f_c))(_time, sloped), grown, rough, moving, name="static solution"
+    _time, grown, rough, moving, name="static solution"
 )
 """The time at which the wear is u_c."""
 

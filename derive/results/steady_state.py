@@ -31,7 +31,7 @@ from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
 from ..note.condensed import CondensedProblem, bearing_only
 from ..note.governing import NoteModel
-from ..rules.algebra import Consequence, Identity, Insert
+from ..rules.algebra import Consequence, Insert
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
 from ..rules.drift import MEAN, logarithmic_drift
@@ -93,7 +93,7 @@ class SteadyState:
     def deviation(self) -> Judgement:
         """h/sigma differs from 1/f_c by b/sigma, exactly."""
         claim = sp.Eq(self.closure / roughness, 1 / f_c - self.excess / roughness)
-        return Identity(claim)(self.roughening, self.worn, name="exact deviation")
+        return Insert(claim)(self.roughening, self.worn, name="exact deviation")
 
     @property
     def facts(self) -> tuple[Judgement, ...]:

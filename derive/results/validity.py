@@ -22,7 +22,8 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..hypotheses import ROUGHENING, SLOPED, Hypothesis
-from ..rules.algebra import Identity, discharge, forget, substitute
+from ..kernel import Judgement
+from ..rules.algebra import Insert
 from ..rules.assumption import assume
 from ..rules.inequalities import Arithmetic, Monotone, Threshold
 from ..symbols import symbols
@@ -40,12 +41,10 @@ RESOLUTIONS = MappingProxyType(
 
 RESOLVED = Hypothesis(epsilon < 1 / (1 + sp.exp(-8)))
 """epsilon is below the largest possible share."""
-TEN_DIGITS = Hypothesis(sp.Eq(epsilon, 1 / (1 + sp.exp(24))))
-
 
 sloped = assume(SLOPED)
 
-share = Identity(sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8))))(
+share = Insert(sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8))))(
     sloped, name="share of p_max"
 )
 """(22) as a share of p_max, in the form to compute with."""
@@ -54,7 +53,7 @@ criterion = Arithmetic(sp.Gt(sp.tanh(4 - 2 / f_c), -1))(sloped, name="the criter
 """The note's criterion holds without condition."""
 
 _value = share.claim.rhs
-share_slope = Identity(sp.Eq(sp.diff(_value, f_c), 4 / f_c**2 * _value * (1 - _value)))(
+share_slope = Insert(sp.Eq(sp.diff(_value, f_c), 4 / f_c**2 * _value * (1 - _value)))(
     sloped, name="slope of the share"
 )
 """The asymptotic pressure grows with f_c."""
@@ -62,17 +61,19 @@ share_slope = Identity(sp.Eq(sp.diff(_value, f_c), 4 / f_c**2 * _value * (1 - _v
 bound = 4 / (8 + sp.log(1 / epsilon - 1))
 """The least f_c of a resolution epsilon."""
 
+
+def _threshold(level: sp.Expr, point: sp.Expr, *facts: Judgement) -> Judgement:
+    """Return that the share exceeds a level if and only if f_c exceeds a point."""
+    claim = sp.Equivalent(sp.Gt(_value, level), sp.Gt(f_c, point))
+    return Threshold(claim, f_c)(assume(ROUGHENING), *facts, name="threshold")
+
+
 _x = sp.Dummy("x", real=True)
 _rare = Arithmetic(sp.Gt(1 / epsilon - 1, sp.exp(-8)))(assume(RESOLVED))
-threshold = Threshold(sp.Equivalent(sp.Gt(_value, epsilon), sp.Gt(f_c, bound)), f_c)(
-    assume(ROUGHENING), Monotone(sp.Lambda(_x, sp.log(_x)))(_rare), name="threshold"
-)
+threshold = _threshold(epsilon, bound, Monotone(sp.Lambda(_x, sp.log(_x)))(_rare))
 """A lower bound of the pressure is equivalent to one of f_c."""
 
-_resolution = assume(TEN_DIGITS)
-one_eighth = forget(
-    discharge(substitute(threshold, _resolution), RESOLVED, _resolution), TEN_DIGITS
-)
+one_eighth = _threshold(1 / (1 + sp.exp(24)), sp.Rational(1, 8))
 """f_c > 1/8 is equivalent to a lower bound of the asymptotic pressure."""
 
 

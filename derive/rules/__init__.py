@@ -6,7 +6,7 @@ Overview
     named instance: ``substitute = Substitute()``.
 Contents
     assumption    hypotheses and definitions
-    algebra       at an instant: substitute, solve, rewrite; discharged hypotheses
+    algebra       at an instant: substitute, solve, rewrite
     inequalities  between reals, and from one quantity to another
     calculus      from rates to wear; the rigid support; scaled time
     limits        t -> oo

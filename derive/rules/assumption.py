@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -34,7 +33,6 @@ _GIVEN = DATA | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
 _AT_EVERY_TIME = ((t,), (symbol("tau"),))
 
 
-@dataclass(frozen=True)
 class Assume(Rule):
     """``H |- H``."""
 

@@ -16,8 +16,6 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 
@@ -29,7 +27,8 @@ from ..reals import LAW, holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import continuity, facts_of, require_defined, smooth
+from .growth import expanded, taylor
+from .proving import continuous, facts_of, require_defined
 from .reading import T, clocks, constant, equality, fields, functions, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
@@ -44,31 +43,17 @@ OFFSET = sp.Eq(b_0, sigma_c0 / f_c - h_0)
 SATURATION = sp.Eq(theta, sp.tanh(4 - 2 / f_c))
 
 
-@cache
-def powers(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
-    """Return the coefficients of 1/sigma^n in a pressure ``F(u_c, U_a)``.
+def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Expr, ...]:
+    """Return the coefficients of a law in powers of 1/roughness.
 
-    With sigma = sigma_c0 + f_c u_c and b_0 = sigma_c0/f_c - h_0 the ratio h/sigma is a
-    polynomial in 1/sigma whose first coefficient is 1/f_c.  RuleError unless F is smooth at
-    infinity and tends to a constant that is not zero.
+    RuleError unless it is smooth at infinity and tends to a constant that is not zero.
     """
-    at_large = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, h_0: sigma_c0 / f_c - b_0})
-    return _coefficients(at_large, order, frozenset([f_c > 0]))
-
-
-def _coefficients(law: sp.Expr, order: int, facts: frozenset[sp.Basic]) -> tuple[sp.Expr, ...]:
-    """Return the coefficients of a law in powers of 1/roughness."""
-    small, near = sp.Dummy("1/sigma", positive=True), sp.Dummy(real=True)
-    inverse = law.subs(ROUGHNESS, 1 / small)
-    at_large = inverse.replace(
-        lambda e: isinstance(e, sp.Function) and e.has(small), _in_lowest_terms
-    )
-    goals = [goal.subs(near, 0) for goal in continuity(at_large.xreplace({small: near}), {near})]
-    if not smooth(at_large, small) or not all(holds(goal, facts) for goal in goals):
+    small = sp.Dummy("1/sigma", positive=True)
+    power, inverse = expanded(law.subs(ROUGHNESS, 1 / small), small)
+    if power or not continuous(inverse, {small: sp.S.Zero}, *premises):
         raise RuleError(f"missing premise: {law} is smooth at infinity")
-    terms = (sp.diff(at_large, small, n) / sp.factorial(n) for n in range(order + 1))
-    steady, *others = (term.subs(small, 0).doit() for term in terms)
-    if fields(steady) or clocks(steady) or not holds(sp.Ne(steady, 0), facts):
+    steady, *others = (taylor(inverse, small, n) for n in range(order + 1))
+    if fields(steady) or clocks(steady) or not holds(sp.Ne(steady, 0), facts_of(premises)):
         raise RuleError(f"missing premise: {steady} is the limit of {law}")
     return steady, *others
 
@@ -84,11 +69,7 @@ def require_expansion(term: Term, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {law} has the period 1")
     if not (order.is_Integer and order.is_positive) or (order > 1 and law.has(LAW)):
         raise RuleError(f"missing premise: {law} has a coefficient of order {order}")
-    _coefficients(steady, int(order), facts_of(premises))
-
-
-def _in_lowest_terms(function: sp.Expr) -> sp.Expr:
-    return function.func(*(sp.expand(sp.cancel(argument)) for argument in function.args))
+    _coefficients(steady, int(order), *premises)
 
 
 def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
@@ -101,7 +82,6 @@ def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
     return kind(sp.Integer(n), law, ROUGHNESS, tau, rho)
 
 
-@dataclass(frozen=True)
 class OrderEquation(Rule):
     """``dw_n/dtau = rho (K - c_n)``: the terms with 1/m^n, where K has terms of lower order.
 
@@ -129,7 +109,7 @@ class OrderEquation(Rule):
         for k in range(1, n + 1):
             drift.append(_named(term_of(Drift, k, given.rhs), *premises))
             waves.append(_named(term_of(Oscillation, k, given.rhs), *premises))
-        known = collected(_series(given.rhs, n), drift, waves, n)
+        known = collected(_series(given.rhs, n, *premises), drift, waves, n)
         return Conclusion(Equality(sp.Derivative(waves[n], tau), rho * (known - drift[n])))
 
 
@@ -142,18 +122,21 @@ def _named(term: Term, *premises: Judgement) -> sp.Expr:
     raise RuleError(f"missing premise: a name of the {kind} {term.letter}_{term.args[0]}")
 
 
-@cache
-def _series(pressure: sp.Expr, order: int) -> tuple[sp.Expr, ...]:
-    """Return the coefficients of 1/sigma^n in ``p/p_inf`` under U_a = U sin(2 pi tau)."""
+def _series(pressure: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Expr, ...]:
+    """Return the coefficients of 1/sigma^n in ``p/p_inf`` under U_a = U sin(2 pi tau).
+
+    With sigma = sigma_c0 + f_c u_c and b_0 = sigma_c0/f_c - h_0 the ratio h/sigma is a
+    polynomial in 1/sigma whose first coefficient is 1/f_c.
+    """
+    law = pressure.subs({u_c: (ROUGHNESS - sigma_c0) / f_c, h_0: sigma_c0 / f_c - b_0})
     steady, *corrections = (
         term.subs(sp.tanh(4 - 2 / f_c), theta).subs(sp.tanh(2 / f_c - 4), -theta)
-        for term in powers(pressure, order)
+        for term in _coefficients(law, order, *premises)
     )
     load = SINE.relation.rhs.subs(t, T * tau)
     return sp.S.One, *(sp.factor(sp.cancel(c / steady)).subs(LOAD, load) for c in corrections)
 
 
-@dataclass(frozen=True)
 class Averaging(Rule):
     """``dw/dtau = R(tau)``, where w has the period 1 and the mean 0: c_n in R, or w.
 
@@ -210,7 +193,6 @@ def _definitions(law: sp.Expr) -> set[sp.Equality]:
     }
 
 
-@dataclass(frozen=True)
 class SlowTime(Rule):
     """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
 

@@ -10,8 +10,6 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from ..claims import Continuous, Equality, Inequality
@@ -36,7 +34,6 @@ U_c, p, k, T, tau = symbols("U_c p k T tau")
 SPRINGS = Hypothesis(SUPPORT, Kind.MODEL)
 
 
-@dataclass(frozen=True)
 class Integrate(Rule):
     """``dy/dt = c dx/dt`` with constant c, y(0) and x(0) give ``y = y(0) + c (x - x(0))``."""
 
@@ -61,7 +58,6 @@ class Integrate(Rule):
 integrate = Integrate()
 
 
-@dataclass(frozen=True)
 class Grows(Rule):
     """``du/dt >= c`` with constant c, and u(0), give ``u >= u(0) + c t``."""
 
@@ -82,7 +78,6 @@ class Grows(Rule):
 grows = Grows()
 
 
-@dataclass(frozen=True)
 class Differentiate(Rule):
     """An equality that holds at every time gives that of the rates of both sides.
 
@@ -107,7 +102,6 @@ class Differentiate(Rule):
 differentiate = Differentiate()
 
 
-@dataclass(frozen=True)
 class RigidLimit(Rule):
     """``k U_c = p`` becomes ``U_c = 0``, and an equation its limit for k -> oo.
 
@@ -141,7 +135,6 @@ class RigidLimit(Rule):
 rigid = RigidLimit()
 
 
-@dataclass(frozen=True)
 class ChangeClock(Rule):
     """``y = c v`` with constant c, and ``t = T tau``, give ``dy/dt = (c/T) dv/dtau``."""
 

@@ -8,12 +8,11 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Collection, Set
-from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Equality, Inequality
+from ..claims import Equality
 from ..hypotheses import LOAD, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import defined_by, names
@@ -23,7 +22,7 @@ from ..reals import holds
 from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import facts_of, is_contact_law, open_set, require_defined, smooth, undefined
+from .proving import is_contact_law, open_set, require_defined, smooth, undefined
 from .reading import equality, functions
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
@@ -81,7 +80,6 @@ def _is_pressure_law(relation: sp.Basic) -> bool:
     return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
-@dataclass(frozen=True)
 class DataDerivative(Rule):
     """``y = F(a, ...)`` gives ``dy/da``: F is a function of data, of which a varies alone.
 
@@ -105,22 +103,3 @@ class DataDerivative(Rule):
         if not smooth(result.rhs) or not is_zero(inserted(left - right, premises)):
             raise RuleError(f"missing premise: the derivative is {slope}")
         return Conclusion(Equality(*self.claim.args))
-
-
-@dataclass(frozen=True)
-class OneSign(Rule):
-    """``y = Q`` gives ``dQ/da >= 0``, or ``<= 0``, where the premises prove the sign."""
-
-    parameter: sp.Expr
-    words = "Differentiate the rate {0} with respect to {parameter}: the sign is constant."
-    premise_names = ("the result",)
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        law = equality(premises[0])
-        slope = sp.diff(law.rhs, self.parameter).doit()
-        known = facts_of(premises)
-        require_defined(slope, *premises)
-        for relation in (sp.Ge, sp.Le):
-            if holds(relation(slope, 0), known):
-                return Conclusion(Inequality(relation(slope, 0, evaluate=False)))
-        raise RuleError(f"missing premise: {slope} has one sign")

@@ -9,8 +9,6 @@ Key results
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from ..claims import Asymptotic
@@ -39,7 +37,6 @@ MEAN = sp.Eq(U_mean, sp.Integral(LOAD, (t, 0, T)) / T)
 """The definition of the mean of the load."""
 
 
-@dataclass(frozen=True)
 class FirstOrder(Rule):
     """The approach of the rate to its limit, from that of h/sigma.
 
@@ -77,7 +74,6 @@ class FirstOrder(Rule):
 first_order = FirstOrder()
 
 
-@dataclass(frozen=True)
 class LogarithmicDrift(Rule):
     """``t (du/dt - R) - a(U_a) -> 0``, a linear: ``(u - R t)/ln(t/T) -> a(<U_a>)``.
 
@@ -114,7 +110,6 @@ def _laws(expr: sp.Expr) -> set[sp.Basic]:
 logarithmic_drift = LogarithmicDrift()
 
 
-@dataclass(frozen=True)
 class LogarithmicGrowth(Rule):
     """``e^((u - U_a)/s) du/dt -> a > 0`` with constant s > 0, under ``U_a = U sin(2 pi t/T)``:
     ``u(N T) = s ln(1 + a N T I_0(U/s)/s) + o(1)`` as N -> oo.
@@ -144,7 +139,6 @@ class LogarithmicGrowth(Rule):
         return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo))
 
 
-@dataclass(frozen=True)
 class LeadingTerm(Rule):
     """``c N = F(s)`` gives ``ln N = K(s) + o(1)`` as s -> 0+: ``e^K -> oo``, ``N'/(e^K)' -> 1``.
 

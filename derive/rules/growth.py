@@ -13,7 +13,6 @@ References
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -37,7 +36,6 @@ from .reading import (
 )
 
 
-@dataclass(frozen=True)
 class Diverges(Rule):
     """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a.
 
@@ -101,7 +99,6 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
         raise RuleError(f"missing premise: {rate} is positive and continuous")
 
 
-@dataclass(frozen=True)
 class Unbounded(Rule):
     """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
 
@@ -158,7 +155,6 @@ def expanded(expr: sp.Expr, small: sp.Symbol) -> tuple[int, sp.Expr]:
     raise RuleError(f"missing premise: {expr} is a smooth function at infinity")
 
 
-@dataclass(frozen=True)
 class AtInfinity(Rule):
     """The limit of a function of u and bounded fields, where ``u -> oo``.
 
@@ -189,9 +185,9 @@ class AtInfinity(Rule):
         if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")
         for n in range(max(order, 0)):
-            if not is_zero(_taylor(smooth, z, n)):
+            if not is_zero(taylor(smooth, z, n)):
                 raise RuleError(f"missing premise: {inside} is bounded")
-        value = sp.powsimp(_taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
+        value = sp.powsimp(taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
         require_defined(sp.Tuple(value, self.claim.rhs), *premises)
@@ -209,11 +205,11 @@ class AtInfinity(Rule):
         return -sp.log(z) / fall
 
 
-def _taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
+def taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
+    """Return the coefficient of z^n in the Taylor expansion at z = 0."""
     return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
 
 
-@dataclass(frozen=True)
 class Intermittent(Rule):
     """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
 

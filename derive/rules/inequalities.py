@@ -10,35 +10,29 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
-from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..reals import holds, sign
 from ..zero import is_zero
 from .proving import continuity, facts_of, require, require_defined, smooth
 from .reading import inequality
 
 
-@dataclass(frozen=True)
 class Arithmetic(Rule):
     """A relation that follows from the premises in the real numbers."""
 
     claim: sp.Basic
+    words = "This follows from {all}."
+    alone = "This holds for all numbers."
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         require(self.claim, *premises)
         return Conclusion(claim_of(self.claim))
 
-    def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
-        return f"This follows from {listed(labels)}." if labels else "This holds for all numbers."
 
-
-@dataclass(frozen=True)
 class Monotone(Rule):
     """``a >= b`` gives ``F(a) >= F(b)`` for an increasing F, ``<=`` for a decreasing one."""
 
@@ -63,7 +57,6 @@ class Monotone(Rule):
         return Conclusion(Inequality(relation[direction < 0](high, low, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class Lipschitz(Rule):
     """``-1 <= F' <= 0`` everywhere gives ``0 <= c (F(a) - F(a + d)) <= c d`` for c, d >= 0."""
 
@@ -90,7 +83,6 @@ class Lipschitz(Rule):
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class LogarithmicSlope(Rule):
     """``|F'/F| <= m`` for F > 0 gives ``|ln(F(a)/F(b))| <= m |a - b|``."""
 
@@ -118,7 +110,6 @@ class LogarithmicSlope(Rule):
         return Conclusion(Inequality(sp.Le(sp.Abs(sp.log(ratio)), bound, evaluate=False)))
 
 
-@dataclass(frozen=True)
 class Threshold(Rule):
     """``F(x) > e`` if and only if ``x > x*``: F increases on x > 0, and F(x*) = e with x* > 0."""
 

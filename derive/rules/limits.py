@@ -4,7 +4,6 @@ Key results
     forever, later   the limit for t -> oo; an expression one period later
     one_period_later a claim about every time, one period later
     vanishes         |e| <= B/s and s -> oo give e -> 0
-    ordered          a > b at every time and a - b -> d give d >= 0
     Passes           limits pass through continuous functions and through t -> t + T
     accumulates      du/dt -> R gives u(t + T) - u(t) -> R T
 References
@@ -13,18 +12,17 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Asymptotic, Equality, Inequality, Limit
+from ..claims import Asymptotic, Limit
 from ..hypotheses import LOAD
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound
 from ..reals import LAW
 from ..symbols import t
 from ..zero import is_zero
+from .algebra import inserted
 from .proving import continuous, require_defined
 from .reading import (
     T,
@@ -34,9 +32,7 @@ from .reading import (
     field_of_rate,
     fields,
     growing,
-    inequality,
     limit_in_time,
-    replaced,
 )
 
 
@@ -61,7 +57,6 @@ def in_time(expr: sp.Expr, value: sp.Expr) -> Limit:
     return Limit(expr, t, sp.oo, value)
 
 
-@dataclass(frozen=True)
 class OnePeriodLater(Rule):
     """A claim that holds at every time holds one period later."""
 
@@ -84,7 +79,6 @@ def _at_one_time(expr: sp.Basic) -> bool:
     return not clocks(expr) and not any(t in bound(node) for node in nodes)
 
 
-@dataclass(frozen=True)
 class Vanishes(Rule):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
@@ -104,27 +98,6 @@ class Vanishes(Rule):
 vanishes = Vanishes()
 
 
-@dataclass(frozen=True)
-class Ordered(Rule):
-    """``a >= b`` or ``a > b`` at every time, and ``a - b -> d``, finite: ``d >= 0``."""
-
-    words = "A limit keeps the order in {0}, but not its strictness, with {others}."
-    source = "Rudin, 1976, theorem 4.2"
-    premise_names = ("the inequality", "the limit of the difference")
-
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        order, given = inequality(premises[0]), limit_in_time(premises[1])
-        if not is_zero(given.expr - order.greater + order.lesser):
-            raise RuleError(f"missing premise: the limit of {order.greater - order.lesser}")
-        if given.value.is_finite is False:
-            raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-        return Conclusion(Inequality(sp.Ge(given.value, 0, evaluate=False)))
-
-
-ordered = Ordered()
-
-
-@dataclass(frozen=True)
 class Passes(Rule):
     """Limits pass through a function that is continuous at them, and through one period.
 
@@ -150,8 +123,10 @@ class Passes(Rule):
             for quantity in (part, later(part)) if _at_one_time(part) else (part,):
                 stand_in = sp.Dummy(real=True)
                 ends[stand_in], meaning[stand_in] = end, quantity
-        rewritten = _rewritten(whole, premises)
-        expr = back = _in_terms(rewritten, meaning)
+        expr = rewritten = inserted(whole, premises)
+        for stand_in, quantity in meaning.items():
+            expr = in_terms_of(expr, quantity, stand_in)
+        back = expr
         for stand_in, quantity in reversed(meaning.items()):
             back = back.subs(stand_in, quantity)
         if not constant(expr) or not is_zero(back - rewritten):
@@ -163,20 +138,6 @@ class Passes(Rule):
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
         return Conclusion(in_time(whole, self.claim.rhs))
-
-
-def _rewritten(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
-    """Return an expression with the equalities of premises inserted."""
-    for claim in (premise.claim for premise in premises):
-        if isinstance(claim, Equality):
-            expr = replaced(expr, claim.lhs, claim.rhs)
-    return expr
-
-
-def _in_terms(expr: sp.Expr, meaning: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    for name, quantity in meaning.items():
-        expr = in_terms_of(expr, quantity, name)
-    return expr
 
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
@@ -199,7 +160,6 @@ def _cancelled(expr: sp.Expr) -> sp.Expr:
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
 
 
-@dataclass(frozen=True)
 class Accumulates(Rule):
     """``du/dt -> R``, finite: the wear of one period tends to ``R T``."""
 

@@ -125,9 +125,11 @@ def _by_clock(expr: sp.Expr) -> bool:
 
 
 def at_an_instant(expr: sp.Basic) -> sp.Basic:
-    """Return an expression with a constant for each integral over time and limit in it."""
-    found = expr.atoms(sp.Integral, sp.Limit, Drift)
-    return expr.xreplace({e: sp.Dummy() for e in found if t not in e.free_symbols})
+    """Return an expression with a constant for each integral and limit in it that no clock moves,
+    and each drift."""
+    found = expr.atoms(sp.Integral, sp.Limit)
+    moving = {e for e in found if not CLOCKS.isdisjoint(s.name for s in e.free_symbols)}
+    return expr.xreplace({e: sp.Dummy() for e in found - moving | expr.atoms(Drift)})
 
 
 def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:

@@ -11,7 +11,6 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -36,7 +35,6 @@ from .reading import (
 PRESSURE = symbol("p")
 
 
-@dataclass(frozen=True)
 class Follows(Rule):
     """The only root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
 
@@ -64,7 +62,6 @@ class Follows(Rule):
 follows = Follows()
 
 
-@dataclass(frozen=True)
 class Separate(Rule):
     """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
@@ -102,7 +99,6 @@ class Separate(Rule):
         return Conclusion(Equality(*self.claim.args))
 
 
-@dataclass(frozen=True)
 class ByParts(Rule):
     """``int g ds = F(b) - F(a) + int r ds`` from a to b, for a smooth F with ``F' = g - r``."""
 
@@ -131,7 +127,6 @@ class ByParts(Rule):
         return f"Integrate {labels[0]} by parts: {write(self.primitive)} leaves the integral."
 
 
-@dataclass(frozen=True)
 class Lambert(Rule):
     """``w e^w = x`` with ``w >= 0`` gives ``w = W(x)``, as ``w e^w`` increases there."""
 
@@ -149,7 +144,6 @@ class Lambert(Rule):
         return Conclusion(Equality(w, sp.LambertW(given.rhs)))
 
 
-@dataclass(frozen=True)
 class FirstRoot(Rule):
     """The first positive zero x of f, where ``f w = a_0 + 2 a_1 x + a_2 x^2`` with w > 0.
 

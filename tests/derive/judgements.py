@@ -18,7 +18,7 @@ from derive.hypotheses import BOUNDED_LOAD, CONSTANT, PERIODIC, SINE, Hypothesis
 from derive.kernel import Judgement
 from derive.results.expansion import expansion
 from derive.results.steady_state import steady_state
-from derive.rules.algebra import Insert, Solve, discharge, forget
+from derive.rules.algebra import Insert, Solve
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import (
     EXPANSION,
@@ -103,13 +103,9 @@ def supposed(relation: sp.Basic, kind: Kind = Kind.CONDITION) -> Hypothesis:
     return Hypothesis(relation, kind)
 
 
-def forgotten(relation: sp.Equality, claim: sp.Basic) -> Judgement:
-    """Drop the value of a symbol after something was made of it."""
-    return forget(Arithmetic(claim)(assume(supposed(relation))), supposed(relation))
-
-
-def discharged(met: sp.Basic, claim: sp.Basic, *known: Judgement) -> Judgement:
-    return discharge(Arithmetic(claim)(assume(supposed(met))), supposed(met), *known)
+def times(factor: sp.Expr, known: Judgement, *facts: Judgement) -> Judgement:
+    """Return a relation times a factor."""
+    return Arithmetic(known.claim.map(lambda side: factor * side).relation)(known, *facts)
 
 
 def integral(body: sp.Expr, low: int = -1) -> Judgement:

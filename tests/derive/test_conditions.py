@@ -17,7 +17,6 @@ from derive.language import names
 from derive.laws import EXPONENTIAL, GENERAL, TANH
 from derive.note.model import CLOSURE, FIELDS, SLIP, at_every_closure, contact
 from derive.results import validity
-from derive.rules.algebra import restrict
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.symbols import DATA, symbols, t
@@ -152,7 +151,7 @@ def test_another_contact_law_than_the_notes_is_a_condition() -> None:
     touches = assume(Hypothesis(sp.Le(h, 3 * sigma)))
     for law, shown in ((TANH, 0), (GENERAL, 0), (EXPONENTIAL, 1)):
         model = Hypothesis(contact(law), Kind.MODEL)
-        conditions = restrict(assume(model), touches).conditions
+        conditions = Arithmetic(at_every_closure(law))(assume(model), touches).conditions
         assert conditions == (*[model] * shown, *touches.conditions)
 
 

@@ -81,8 +81,8 @@ def test_no_quantity_has_a_name_of_the_library():
 def test_attempts_end_where_coq_closes_nothing(monkeypatch):
     monkeypatch.setattr(prove, "_session", lambda *_: "")
     made = export.Export((catalogue.equation("one-eighth"),))
-    assert "Discharge" in {step.rule for step in made.steps}
-    hoped = {step.key for step in made.steps if step.rule == "Discharge"}
+    assert "Threshold" in {step.rule for step in made.steps}
+    hoped = {step.key for step in made.steps if step.rule == "Threshold"}
     for _ in made.steps:
         rows, hoped = prove.attempt(made, hoped)
         made = export.Export(made.equations, rows)

@@ -15,7 +15,7 @@ from derive.kernel import RuleError, replay_fault
 from derive.laws import TANH, ContactLaw, r
 from derive.note.model import contact
 from derive.reals import LAW
-from derive.rules.algebra import Identity
+from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
 from derive.rules.limits import forever
 from derive.symbols import initial, rate, symbol, symbols, t
@@ -157,7 +157,7 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
 @pytest.mark.parametrize(("expr", "said"), UNSPEAKABLE, ids=lambda part: str(part))
 def test_what_is_not_of_the_language_is_refused(expr: sp.Expr, said: str) -> None:
     claim = equal(expr, h_0)
-    for door in (Identity(claim), lambda: assume(supposed(claim))):
+    for door in (Insert(claim), lambda: assume(supposed(claim))):
         with pytest.raises(RuleError, match=said):
             door()
 

@@ -5,27 +5,16 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import Continuous, FirstZero
-from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
+from derive.hypotheses import Kind
 from derive.laws import EXPONENTIAL, TANH
-from derive.note.model import ARCHARD, CLOSURE, contact
+from derive.note.model import ARCHARD, CLOSURE, at_every_closure, contact
 from derive.note.model import START as STARTS
-from derive.rules.algebra import (
-    Consequence,
-    Identity,
-    Insert,
-    Logarithm,
-    Multiply,
-    Solve,
-    discharge,
-    forget,
-    restrict,
-    substitute,
-)
+from derive.rules.algebra import Consequence, Insert, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import forever, later, one_period_later
-from derive.rules.solutions import FirstRoot, follows
+from derive.rules.solutions import FirstRoot
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     ALMOST,
@@ -38,13 +27,10 @@ from tests.derive.judgements import (
     SLOPE,
     START,
     Family,
-    discharged,
-    drifting,
     each,
     end,
     eq,
     equal,
-    forgotten,
     ge,
     given,
     gt,
@@ -56,6 +42,7 @@ from tests.derive.judgements import (
     sloped,
     supposed,
     tends,
+    times,
 )
 
 u_c, u_a, U_a, h, p, G, sigma = symbols("u_c u_a U_a h p G sigma")
@@ -74,22 +61,10 @@ NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
 MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
-SOLVED = Solve(u_a)(eq(f_c * u_a, h_0), ROUGHENS)
-SPECIAL = substitute(eq(h, f_c * u_a), AT_ONE)
-SPEED = Multiply(T / q)(RATE)
+SPEED = Arithmetic(equal(T / q * rate("u_c"), T / q * C))(RATE)
+IN_PIECES = eq(G, sp.Piecewise((q, h <= L), (0, True)))
 KINKED = sp.Piecewise((x_inf, x_inf < 0), (x_inf - 1, True))
 OVER_ZERO = equal((h - u_a) / (u_c - h_0), 1)
-
-
-def divided(*facts):
-    """Return u_a = h_0, from a product with f_c = 1, which meets f_c != 0."""
-    product = Solve(u_a)(eq(f_c * u_a, f_c * h_0), facts[0])
-    return discharge(product, facts[0].hypotheses[0], *facts[1:])
-
-
-def in_contact(contact):
-    """Return the time in contact, where the load makes contact."""
-    return eq(G, sp.Integral(sp.Piecewise((1, contact), (0, True)), (t, 0, T))), given(contact)
 
 
 def under(body):
@@ -105,7 +80,8 @@ def defined_as(relation):
 
 
 def touching(law):
-    return restrict(called(contact(law), Kind.MODEL), given(sp.Le(h, 3 * sigma)))
+    touches = given(sp.Le(h, 3 * sigma))
+    return Arithmetic(at_every_closure(law))(called(contact(law), Kind.MODEL), touches)
 
 
 PIN_WEARS, SMOOTH_PIN = called(ARCHARD[0], Kind.MODEL), eq(symbol("sigma_a"), 0)
@@ -143,12 +119,12 @@ FAMILIES = (
         "solved under a derivative": ("linear in G", G, eq(T * rate("G") + G, theta)),
         "solved across a jump": ("linear in x_inf", x_inf, eq(KINKED, theta)),  # x_inf = -1/2
     }),
-    Family(lambda factor, claim=SIDES, *known: Multiply(factor)(claim, *known), (
-        q, sp.Integral(1 / q, (q, 1, 2)), (forever(G), SIDES, tends(G, theta)),
+    Family(lambda factor, claim=SIDES, *known: times(factor, claim, *known), (
+        q, sp.Integral(1 / q, (q, 1, 2)),
         u_stop, rate("u_c"), (sp.Integral(x / theta, (x, 1, 2)), SIDES, given(theta > 0)),
         sp.log(1 + q), (sp.Piecewise((1, f_c > 0)), SIDES, ROUGHENS), (1 / f_c, SIDES, ROUGHENS),
     ), {
-        "an inequality times either sign": ("is no equality", f_c, ge(u_a, h_0)),  # f_c = -1
+        "an inequality times either sign": ("missing premise", f_c, ge(u_a, h_0)),  # f_c = -1
         "a factor that is no limit": ("has a value", forever(sp.sin(t / T))),
         "a primitive": ("two ends", sp.Integral(x, x)),
         "a factor that is no zero": ("has a value", FirstZero(y**2 + 1, y)),
@@ -157,22 +133,23 @@ FAMILIES = (
             given(theta > 0)),
         "a piece without the others": ("f_c > 0", sp.Piecewise((1, f_c > 0))),  # f_c = -1
     }),
-    Family(restrict, (
-        (integral(sp.Piecewise((1, f_c < 0), (0, True))), given(f_c < 0)),
-        (integral(sp.Abs(x_inf) * theta), ge(x_inf, 0)), in_contact(U_a >= h_0),
+    Family(lambda claim, *known: Arithmetic(claim)(*known), (
+        (equal(G, q), IN_PIECES, le(h, L)), (equal(G, 0), IN_PIECES, gt(h, L)),
+        (equal(h, x_inf), eq(h, sp.Abs(x_inf)), ge(x_inf, 0)),
     ), {
         # 1, not 3
-        "a branch under an integral": ("for every",
+        "a branch under an integral": ("missing premise", equal(G, 3),
             integral(sp.Piecewise((1, theta < 0), (0, True))), given(theta < 0)),
         # int_-1^2 |theta|
-        "a modulus under an integral": ("for every", integral(sp.Abs(theta)), ge(theta, 0)),
-        "no branch": ("has no branch", eq(h, q), ROUGHENS),
-        "a branch for less": ("has no branch", eq(p, sp.Piecewise((q, h <= L), (0, True))),
-            le(h, 2 * L)),
-        "a modulus for f_c < 0": ("has no branch", eq(h, sp.Abs(f_c)), lt(f_c, 0)),
+        "a modulus under an integral": ("missing premise", equal(G, sp.Rational(3, 2)),
+            integral(sp.Abs(theta)), ge(theta, 0)),
+        "no branch": ("missing premise", equal(G, q), IN_PIECES, ROUGHENS),
+        "a branch for less": ("missing premise", equal(G, q), IN_PIECES, le(h, 2 * L)),
+        "a modulus for f_c < 0": ("missing premise", equal(h, f_c), eq(h, sp.Abs(f_c)), FALLING),
     }),
     Family(lambda claim, *known: Insert(claim)(*known), (
         (equal(u_a, h_0), eq(u_a, h_0)), (equal(theta * forever(G), theta * b_0), tends(G, b_0)),
+        (equal(h * forever(G), u_a * forever(G)), SIDES, tends(G, theta)),
         (OVER_ZERO, eq(u_c, h_0 + h - u_a), ne(u_c, h_0)),  # h = u_a
     ), {
         "a bound inserted as an equation": ("no identity", equal(u_a, h_0), le(u_a, h_0)),
@@ -180,7 +157,7 @@ FAMILIES = (
         "a limit inserted under an integral": ("for every",
             equal(under(theta * forever(G)), under(theta**2)), tends(G, theta)),
     }),
-    Family(lambda claim, *known: Identity(claim)(*known), (
+    Family(lambda claim, *known: Insert(claim)(*known), (
         equal(sp.Abs(f_c) ** 2, f_c**2), equal(sp.log(2 * q), sp.log(2) + sp.log(q)),
         equal(theta * sp.exp(theta) * sp.exp(-theta), theta),
         equal(sp.besseli(0, y) + 0, sp.besseli(0, y)),
@@ -197,10 +174,12 @@ FAMILIES = (
         "a Bessel function of half an order": ("has a value",
             equal(sp.besseli(sp.S.Half, y) + 0, sp.besseli(sp.S.Half, y))),
     }),
-    Family(lambda inside, value, *known: Logarithm(equal(sp.log(inside), value))(*known), (
+    Family(lambda inside, value, *known: Insert(equal(sp.log(inside), value))(*known), (
         (kappa, f_c, eq(kappa, sp.exp(f_c))), (f_c, sp.log(f_c), ROUGHENS),
+        (kappa, h, eq(sp.log(kappa), h)),
     ), {
-        "the logarithm of a bound": ("kappa = exp", kappa, f_c, ge(kappa, sp.exp(f_c))),
+        "the logarithm of a bound": ("no identity", kappa, f_c, ge(kappa, sp.exp(f_c))),
+        "the logarithm of what may be negative": ("h.* > 0", h, sp.log(h_0), eq(h**2, h_0**2)),
     }),
     Family(lambda claim, *known: Consequence(claim)(*known), (
         (sp.Le(-G, h_0), le(-G, L), eq(L, h_0)), (sp.Eq(rate("u_c") * T / q, C * T / q), SPEED),
@@ -218,45 +197,6 @@ FAMILIES = (
             end(G + (dU + 1) * (dU - 1) - dU**2, q), tends(G, q + 1)),
         "another form of a limit, with 0/0": ("Ne", end(G + GAP, theta), tends(G, theta)),
         "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
-    }),
-    Family(lambda first, met, *known: discharge(first, met.hypotheses[0], *known), (
-        (SOLVED, ROUGHENS, AT_ONE), (ROUGHENS, ROUGHENS, gt(f_c, 1)),
-        (SPECIAL, AT_ONE, EXACTLY_ONE), (drifting(), assume(CONTINUOUS), assume(DIFFERENTIABLE)),
-        (STEADY, STEADY, follows(eq(p, q * u_c), eq(rate("u_c"), C * p / h_0))),
-    ), {
-        "a hypothesis that is not met": ("f_c > 0", SOLVED, ROUGHENS, START),
-        "a hypothesis met by itself": ("from others", ROUGHENS, ROUGHENS, ROUGHENS),
-        # f_c = 1/2, u_a = 1, h = 1/2
-        "a special case for every f_c": (r"Eq\(f_c, 1\)", SPECIAL, AT_ONE, ROUGHENS),
-        # G(0) = L
-        "an equality wherever wear has a rate": ("at every time", Arithmetic(Continuous(G))(WEARS),
-            WEARS, ALMOST),
-        "what is no hypothesis of it": ("does not rest on", SPECIAL, START, START),
-        # sin t
-        "a load that is constant under no condition": ("missing premise", differentiate(CONSTANTLY),
-            CONSTANTLY, START),
-        "a load of which nothing is said": ("is continuous", drifting(), assume(CONTINUOUS), START),
-    }),
-    Family(lambda met, *known: discharged(sp.Ge(met, 0, evaluate=False), sp.Gt(f_c, 0), *known), (
-        (sp.log(f_c) ** 2, ROUGHENS),
-    ), {
-        "(ln f_c)^2 >= 0 is not met without a value": ("f_c > 0", sp.log(f_c) ** 2, START),
-    }),
-    Family(lambda first, said: forget(first, said.hypotheses[0]), (
-        (discharge(substitute(ABOVE, AT_ONE), ABOVE.hypotheses[0], AT_ONE, gt(h, 1)), AT_ONE),
-    ), {
-        "a value that the claim still has": ("occurs nowhere else", AT_ONE, AT_ONE),
-        # 0 = 0, 2 != 1
-        "what was divided by f_c = 1, for f_c = 0": ("occurs nowhere else",
-            divided(ne(f_c, 0), AT_ONE), AT_ONE),
-        "the value of a field": ("constant", eq(b_0, U_a), eq(b_0, U_a)),
-        # a square load
-        "a differentiable load, forgotten": ("value of a symbol",
-            differentiate(eq(h, h_0 - U_a), assume(DIFFERENTIABLE)), assume(DIFFERENTIABLE)),
-    }),
-    Family(forgotten, ((equal(b_0, sp.log(h_0 + 1)), sp.Gt(h_0, -1, evaluate=False)),), {
-        "b_0 = ln f_c, forgotten": ("f_c > 0", equal(b_0, sp.log(f_c)), sp.Gt(f_c, 0)),  # f_c = -1
-        "a positive name": ("may be", equal(q, h_0 - L), sp.Ge(h_0, 0, evaluate=False)),  # q > 0
     }),
     # ---- names
     Family(lambda claim, *said: Arithmetic(claim)(*said), (
@@ -292,10 +232,18 @@ FAMILIES = (
         # the load begins at U_a(0) = 1: it need not be U_a = 0
         "a first closure, and the closure": ("more is said of h", equal(initial("h"), h_0),
             called(STARTS[0], Kind.INITIAL), eq(h, h_0 - U_a)),
+        "a wear without bound, and its limit": ("contradict", TRIVIAL, tends(u_c, sp.oo),
+            tends(u_c, h_0)),
+        "a wear without bound, and a bound": ("contradict", TRIVIAL, tends(u_c, sp.oo),
+            le(sp.Abs(u_c), h_0)),
+        "two limits": ("contradict", TRIVIAL, tends(G, q), tends(G, 2 * q)),
+        "a limit above a bound": ("contradict", TRIVIAL, tends(G, q), lt(G, 0)),
+        "a limit above what falls": ("contradict", TRIVIAL, tends(G, sp.oo), tends(-G, h_0)),
+        "a constant load that rises with time": ("contradict", TRIVIAL, CONSTANTLY, eq(U_a, C * t)),
         "a rough pin that is smooth": ("contradict", equal(h, h_0),
             called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
     }),
-    Family(each, (lambda: Solve(p)(assume(SPRINGS)), lambda: Multiply(q)(AS_WORN)), {
+    Family(each, (lambda: Solve(p)(assume(SPRINGS)), lambda: times(q, AS_WORN)), {
         # p > 0
         "a rigid support of finite stiffness": ("contradict",
             lambda: substitute(assume(SPRINGS), assume(RIGID))),
@@ -352,6 +300,8 @@ FAMILIES = (
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
         "what is constant wherever wear has a rate": ("is constant", b_0, G, ALMOST, eq(u_c, h_0)),
+        "the mean over all cycles so far": ("is constant", U_mean,  # N h_0 under U_a = h_0
+            sp.Integral(U_a, (t, 0, N * T)) / T),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (

@@ -9,7 +9,7 @@ from derive.kernel import infer
 from derive.laws import GENERAL, r
 from derive.note.model import ARCHARD
 from derive.note.model import START as STARTS
-from derive.rules.algebra import Insert, Multiply, Solve, substitute
+from derive.rules.algebra import Insert, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import (
     SPRINGS,
@@ -19,7 +19,7 @@ from derive.rules.calculus import (
     integrate,
     rigid,
 )
-from derive.rules.data import DataDerivative, OneSign
+from derive.rules.data import DataDerivative
 from derive.rules.inequalities import (
     Arithmetic,
     Lipschitz,
@@ -48,6 +48,7 @@ from tests.derive.judgements import (
     lt,
     opened,
     supposed,
+    times,
 )
 
 u_c, u_a, U_a, U_c, h, p, G = symbols("u_c u_a U_a U_c h p G")
@@ -204,7 +205,7 @@ FAMILIES = (
         "what is pressed one period later": ("nothing else is said", pressed(LATER)),
         "what is pressed": ("continuous for k", pressed(opened())),
         "what is pressed, in units of itself": ("continuous for k", unit()),  # 0 = 1
-        "k times an equation": ("continuous for k", Multiply(k)(opened())),
+        "k times an equation": ("continuous for k", times(k, opened())),
     }),
     Family(lambda scaled, clock=CYCLING: change_clock(scaled, clock), (SCALED, eq(u_c, q * v)), {
         "time in periods, with a factor N": ("constant", eq(u_c, N * h_0 * v)),  # u_c = h_0 tau v
@@ -272,8 +273,10 @@ FAMILIES = (
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.sqrt(h / sigma)))),
     }),
-    Family(OneSign(h_0), ((eq(du, C * f_c * h_0), ROUGHENS),), {
-        "the slope of a root": ("Ne|> 0", eq(G, sp.sqrt(h_0))),
+    Family(lambda slope, *known: Arithmetic(sp.Ge(slope, 0, evaluate=False))(*known), (
+        (C * f_c, ROUGHENS),
+    ), {
+        "the slope of a root": ("Ne|> 0", sp.diff(sp.sqrt(h_0), h_0)),
     }),
     # ---- inequalities
     Family(lambda claim, *known: Arithmetic(claim)(*known), (

@@ -16,7 +16,6 @@ from derive.rules.limits import (
     forever,
     later,
     one_period_later,
-    ordered,
     vanishes,
 )
 from derive.symbols import rate, symbols, t
@@ -164,15 +163,6 @@ FAMILIES = (
         "a squeeze that widens": ("is a constant over", sp.Le(G, w / u_c), sp.Ge(G, -w / u_c)),
         "a squeeze by the load": ("is a constant over", sp.Le(G, U_a / u_c), sp.Ge(G, -U_a / u_c)),
         "bounds of two": ("encloses", sp.Le(G, h_0 / u_c), sp.Ge(h, 0)),
-    }),
-    Family(lambda value, difference=h - u_a: ordered(
-        gt(h + h_0 * T / t, u_a), Passes(end(difference + h_0 * T / t, value))(
-            tends(difference, value), AT_LAST)
-    ), (theta,), {
-        "the limit of another difference": ("the limit of", theta, h + u_a),
-    }),
-    Family(lambda value: ordered(gt(h, u_a), tends(h - u_a, value)), (0,), {
-        "an infinite difference": ("is finite", sp.oo),
     }),
     Family(lambda expr, value, *known: Passes(equal(forever(expr), sp.S.Zero + value))(*known), (
         (du / u_c, 0, tends(du, C), DEEP),

@@ -25,7 +25,7 @@ from derive.language import names
 from derive.laws import ContactLaw, r
 from derive.reals import sign
 from derive.results.steady_state import steady_state
-from derive.rules.algebra import restrict, substitute
+from derive.rules.algebra import substitute
 from derive.rules.assumption import assume
 from derive.rules.calculus import differentiate
 from derive.rules.limits import later, one_period_later
@@ -33,7 +33,7 @@ from derive.rules.reading import replaced
 from derive.symbols import rate, symbol, symbols, t
 from derive.zero import is_zero
 from tests.derive import test_language
-from tests.derive.judgements import ROUGHENS, eq, ge, le, supposed
+from tests.derive.judgements import eq, ge, supposed
 from tests.derive.rules import algebra, asymptotics, calculus, limits, solutions
 
 ROOM = Path(inspect.getfile(rules)).parent
@@ -148,12 +148,6 @@ def asked(path: Path) -> Iterator[int]:
             yield called.lineno
         if isinstance(node, ast.Raise):
             yield node.lineno
-
-
-def test_a_piece_is_kept_where_its_relation_holds() -> None:
-    law = eq(p, sp.Piecewise((p_max, sp.Le(h, L)), (0, True)))
-    assert restrict(law, le(h, L)).claim.rhs == p_max
-    assert restrict(eq(h, sp.Abs(f_c)), ROUGHENS).claim.rhs == f_c
 
 
 def test_special_values_stay_hypotheses() -> None:
