@@ -78,15 +78,31 @@ def test_no_quantity_has_a_name_of_the_library():
     assert printer.name("tends") == "tends_"
 
 
+def test_what_coq_refuses_is_open_and_what_does_not_cite_it_is_closed(monkeypatch):
+    equations = (catalogue.equation("one-eighth"),)
+    made = export.Export(equations)
+    (refused,) = (step for step in made.steps if step.rule == "Discharge")
+    tried = []
+
+    def session(_, texts, proved):
+        assert not proved.isdisjoint(texts.values())
+        tried.append(set(texts))
+        return {name for name, text in texts.items() if refused.name in text}
+
+    monkeypatch.setattr(prove, "_unproved", session)
+    rows = prove.renewed(equations, record())
+    assert tried[1] == tried[0] - {refused.name}
+    assert {key for key, row in rows.items() if not row["closed"]} == {refused.key}
+    assert (
+        f"Definition open_{refused.name}"
+        in export.Export(equations, rows).files["Section_validity"]
+    )
+
+
 def test_attempts_end_where_coq_closes_nothing(monkeypatch):
-    monkeypatch.setattr(prove, "_session", lambda *_: "")
-    made = export.Export((catalogue.equation("one-eighth"),))
-    assert "Discharge" in {step.rule for step in made.steps}
-    hoped = {step.key for step in made.steps if step.rule == "Discharge"}
-    for _ in made.steps:
-        rows, hoped = prove.attempt(made, hoped)
-        made = export.Export(made.equations, rows)
-    assert not hoped
+    monkeypatch.setattr(prove, "_unproved", lambda _, texts, __: set(texts))
+    rows = prove.renewed((catalogue.equation("one-eighth"),), {})
+    assert not any(row["closed"] for row in rows.values())
 
 
 def test_a_statement_has_the_hypotheses_as_premises():
