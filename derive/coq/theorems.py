@@ -80,36 +80,24 @@ def _inverse(step: Step, y: sp.Expr) -> Values:
 
 def _by_parts(step: Step) -> Values:
     """Return an integral up to a field, its first value and the proof that it is continuous."""
-    (integral,) = (step.relation if step.rule == "Separate" else step.given[0].relation).atoms(
-        sp.Integral
-    )
+    equation = step.relation if step.rule == "Separate" else step.given[0].relation
+    (integral,) = equation.atoms(sp.Integral)
     _, start, y = integral.limits[0]
     first = [h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start)]
     continuity = [f for f in step.given if isinstance(f.relation, Continuous)]
     return {"integral": integral, "first": first, "continuity": continuity}
 
 
-def _grows(step: Step) -> Values:
-    grown = step.relation.gts
-    bound = next(s for s in step.given if s.relation.has(sp.Derivative(grown, t)))
-    start = next(s for s in step.given if s.relation.lhs == grown.subs(t, 0))
-    return {"name": quantity(grown), "bound": bound, "start": start}
-
-
 def _integrates(step: Step) -> Values:
-    slope = sp.Derivative(step.relation.lhs, t)
-    rate = next(s for s in step.given if s.relation.lhs == slope)
-    (driving,) = rate.relation.rhs.atoms(sp.Derivative)
-    factor = sp.cancel(rate.relation.rhs / driving)
-    return {"rate": rate, "driving": driving, "factor": factor}
+    rate = step.given[0].relation.rhs
+    (driving,) = rate.atoms(sp.Derivative)
+    return {"driving": driving.expr, "factor": sp.cancel(rate / driving)}
 
 
 def _diverges(step: Step) -> Values:
-    (growth,) = (s for s in step.given if s.timed)
-    flat = sp.Symbol("flat")
-    inside = step.relation.lhs.args[0].xreplace({growth.relation.gts: flat})
-    start, slope = inside.subs(flat, 0), sp.diff(inside, flat)
-    return {"growth": growth, "start": start, "slope": slope, "speed": growth.relation.lts / t}
+    grown, flat = step.given[0].relation.gts, sp.Symbol("flat")
+    inside = step.relation.lhs.args[0].xreplace({grown: flat})
+    return {"start": inside.subs(flat, 0), "slope": sp.diff(inside, flat)}
 
 
 def _unbounded(step: Step) -> Values:
@@ -127,10 +115,8 @@ def _unbounded(step: Step) -> Values:
 
 
 def _squeezed(step: Step) -> Values:
-    between = next(s for s in step.given if isinstance(s.relation, sp.And))
-    inside = step.relation.lhs.args[0]
-    above = next(part for part in between.relation.args if part.lts == inside)
-    return {"between": between, "above": above}
+    inside, between = step.relation.lhs.args[0], step.given[0].relation
+    return {"above": next(part.gts for part in between.args if part.lts == inside)}
 
 
 @dataclass(frozen=True)
@@ -232,7 +218,6 @@ _VALUES: Mapping[str, Callable[[Step], Values | None]] = {
     "Diverges": _diverges,
     "FirstOrder": _first_order,
     "Follows": _follows,
-    "Grows": _grows,
     "Integrate": _integrates,
     "ByParts": _by_parts,
     "Lipschitz": _lipschitz,
