@@ -152,7 +152,7 @@ class Export:
         """Return the file that prints the axioms of all theorems together."""
         proved = [step.name for step in self.steps if step.closed]
         proved += refutations.NAMES.values() if self.refuting else ()
-        everything = ", ".join(f"@{name}" for name in proved)
+        everything = ", ".join(f"@{name}" for name in proved) or "I"
         return (
             f"From Wear Require Import {' '.join(files)}.\n"
             f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
@@ -168,9 +168,9 @@ class Export:
         texts = {f"{name}.v": text for name, text in (texts | dict(files)).items()}
         targets = " ".join(f"{name}.vo" for name in files)
         texts["Makefile"] = f"all: {targets}\n{MAKEFILE}"
-        present = (file for file in texts if (folder / file).exists())
-        old = {file: (folder / file).read_text(encoding="utf-8") for file in present}
-        write_all(folder, {file: text for file, text in texts.items() if text != old.get(file)})
+        present = {file for file in texts if (folder / file).is_file()}
+        same = {f for f in present if (folder / f).read_bytes() == texts[f].encode()}
+        write_all(folder, {file: texts[file] for file in texts if file not in same})
 
 
 def _importing(files: Iterable[str]) -> str:

@@ -64,9 +64,9 @@ def _known(step: Step) -> list[str]:
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression in terms of known limits, and let the limit pass through it."""
     composed, _ = _composed(step, inside)
-    lines = [f"apply (tends_ext (fun t => {composed})).", "{ intros t Ht.", *step.signs()]
+    lines = [f"apply (tends_ext (fun t => {composed})).", "{ intros t Ht.", step.signs()]
     if inside.has(t + _T):
-        lines += ["assert (HT : 0 <= T + t) by lra.", *step.signs("(T + t)", "HT")]
+        lines += ["assert (HT : 0 <= T + t) by lra.", step.signs("(T + t)", "HT")]
     equations = [f for f in step.given if f.equates and f.timed]
     return [*lines, f"{stated(equations)}insert; identity. }}", "limit."]
 

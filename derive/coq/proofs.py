@@ -42,7 +42,7 @@ def _body(step: Step) -> list[str]:
         return _discharged(step)
     if step.limits or step.relation.has(sp.Limit):
         return limits.proof(step)
-    start = ["intros t Ht.", *step.signs()] if step.timed else []
+    start = ["intros t Ht.", step.signs()] if step.timed else []
     equates = isinstance(step.relation, sp.Equality)
     return [*start, f"{_equation(step) if equates else _inequality(step, step.relation)}."]
 
@@ -56,7 +56,7 @@ def _discharged(step: Step) -> list[str]:
             lines.append(f"assert ({premise.label}_met : {premise.proposition}).")
             lines += [
                 "{ intros t Ht.",
-                *step.signs(),
+                step.signs(),
                 f"{_inequality(step, premise.relation)}.",
                 "}",
             ]

@@ -111,24 +111,9 @@ class Step:
         ]
 
     @cached_property
-    def nearest(self) -> list[Step]:
-        """Return the usable parents, and the nearest usable ancestors of the other parents."""
-        found: dict[str, Step] = {}
-
-        def visit(step: Step) -> None:
-            for parent in step.parents:
-                if self.usable(parent):
-                    found.setdefault(parent.name, parent)
-                else:
-                    visit(parent)
-
-        visit(self)
-        return list(found.values())
-
-    @cached_property
     def given(self) -> list[Fact]:
-        """Return the facts from which the claim follows: the nearest usable steps."""
-        return [self.fact(step) for step in self.nearest]
+        """Return the facts from which the claim follows: the parents that can be cited."""
+        return list(dict.fromkeys(self.fact(p) for p in self.parents if self.usable(p)))
 
     @cached_property
     def ancestors(self) -> list[Fact]:
@@ -165,7 +150,7 @@ class Step:
         """Return the first given limit that is infinite."""
         return next(f for f in self.limits if f.relation.rhs == sp.oo)
 
-    def signs(self, time: str = "t", instant: str = "Ht") -> list[str]:
+    def signs(self, time: str = "t", instant: str = "Ht") -> str:
         """Return the tactics that state the known signs at a time.
 
         They come from inequalities, and from names that are positive and equal an expression.
@@ -181,7 +166,7 @@ class Step:
             elif fact.equates and (*name, 0) in positive:
                 sign = positive[(*name, sp.S.Zero)].at(time, instant)
                 lines.append(f"pose proof (sign_of ({sign}) ({known})).")
-        return list(dict.fromkeys(lines))
+        return "\n".join(dict.fromkeys(lines))
 
 
 def stated(facts: Iterable[Fact]) -> str:

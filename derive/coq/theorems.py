@@ -106,7 +106,7 @@ def _unbounded(step: Step) -> Values:
     wear, load = symbol("u_s"), sp.Symbol("load", real=True)
     elsewhere = f" (with_wear (fun _ => {quantity(wear)}))"
     always = []
-    for known in step.nearest:
+    for known in step.parents:
         if known.timed and not any(p.timed for p in known.statement.premises):
             proof = step.fact(known).proof.replace(known.name, known.name + elsewhere)
             always.append((known.relation.xreplace({u: wear}), f"@{proof}"))

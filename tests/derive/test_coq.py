@@ -143,6 +143,23 @@ def test_nothing_is_admitted():
         assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture|Abort)\b", code), path
 
 
+def test_another_file_of_the_same_name_is_replaced(tmp_path):
+    (tmp_path / "World.v").write_bytes(b"\xe9")
+    made = export.Export((catalogue.equation("7c"),))
+    made.write(tmp_path)
+    assert (tmp_path / "World.v").read_text(encoding="utf-8") == made.files["World"]
+
+
+@needs_coq
+def test_an_export_without_steps_is_compiled(deviation):
+    folder, _ = deviation
+    made = export.Export((catalogue.equation("1"),))
+    assert not made.steps
+    (folder / "Empty.v").write_text(made.files["Assumptions"], encoding="utf-8")
+    said = ended("coqc", "-q", "-Q", ".", "Wear", "Empty.v", cwd=folder).stdout
+    assert "Closed under the global context" in said
+
+
 @needs_coq
 def test_the_sample_is_compiled(deviation):
     folder, made = deviation

@@ -244,12 +244,9 @@ Ltac derived :=
   | repeat match goal with |- context [Derive (fun x => ?f x) ?a] =>
       progress change (Derive (fun x => f x) a) with (Derive f a) end; identity ].
 
-(** An equation where all is inserted; [ln x = y] from [x = exp y]. *)
+(** An equation; [ln x = y] by [x = exp y]. *)
 Ltac equal :=
-  match goal with
-  | |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity]
-  | |- _ => identity
-  end.
+  try (match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp |] end); identity.
 
 (** ** What a claim rests on *)
 
@@ -370,8 +367,7 @@ Ltac limit_of_parts :=
 
 (** A known limit L, one period later. *)
 Ltac one_period_later T L :=
-  generalize (later _ _ T L); apply tends_ext; intros; rewrite ?derive_later; first
-  [ reflexivity
-  | match goal with |- context [T + (T + ?t)] => replace (2 * T + t) with (T + (T + t)) by ring end; reflexivity ].
+  generalize (later _ _ T L); apply tends_ext; intros t _; rewrite ?derive_later; first
+  [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity].
 
 Ltac limit := eapply tends_value; [| limit_of_parts]; identity.
