@@ -25,7 +25,7 @@ from ..equations import Equation
 from ..files import write_all
 from . import proofs, refutations
 from .statements import key, world
-from .steps import Record, Row, Step, record, steps
+from .steps import Record, Step, record, steps
 
 LIBRARY = Path(__file__).parent / "library"
 THEOREMS = ("Tanh", "Limits", "Integrals", "Drift", "Tactics")
@@ -79,19 +79,10 @@ class Export:
         return [step for step in self._stated[0].values() if not step.assumed]
 
     @property
-    def refused(self) -> dict[str, str]:
-        """Return the claims that cannot be stated with Coq's library, with the reason."""
-        return self._stated[1]
-
-    @property
     def counts(self) -> dict[str, int]:
         """Return the numbers of all steps, of closed ones, and of those that cannot be stated."""
-        proved = sum(text.count("\nLemma ") for text in self.lemmas.values())
-        return {
-            "steps": len(self.steps) + len(self.refused),
-            "closed": proved,
-            "unstated": len(self.refused),
-        }
+        closed, unstated = sum(step.closed for step in self.steps), len(self._stated[1])
+        return {"steps": len(self.steps) + unstated, "closed": closed, "unstated": unstated}
 
     @property
     def unrecorded(self) -> str:
@@ -102,18 +93,17 @@ class Export:
     @cached_property
     def lemmas(self) -> dict[str, str]:
         """Return the text of each step, by its name."""
-        return {s.name: self.lemma(s, self.known.get(s.key, {})) for s in self.steps}
+        return {step.name: self.lemma(step) for step in self.steps}
 
-    def lemma(self, step: Step, row: Row) -> str:
+    def lemma(self, step: Step) -> str:
         """Return a step with its proof, or as an open proposition."""
-        signature = f"{{w : world}} :\n  {step.statement.text}"
         title = f"(* {step.rule}: {step.judgement.name or 'no name'} *)\n"
-        if not row.get("closed"):
-            signature = signature.replace(" :\n", " : Prop :=\n", 1)
-            reason = row.get("reason", "not in the record")
-            return f"{title}(* open: {reason} *)\nDefinition open_{step.name} {signature}.\n"
-        proof = proofs.script(step, row.get("way"))
-        return f"{title}Lemma {step.name} {signature}.\nProof.\n{proof}\nQed.\n"
+        if step.closed:
+            lemma = f"Lemma {step.name} {{w : world}} :\n  {step.statement.text}.\n"
+            return f"{title}{lemma}Proof.\n{proofs.script(step)}\nQed.\n"
+        reason = self.known.get(step.key, {}).get("reason", "not in the record")
+        proposition = f"open_{step.name} {{w : world}} : Prop :=\n  {step.statement.text}"
+        return f"{title}(* open: {reason} *)\nDefinition {proposition}.\n"
 
     @cached_property
     def groups(self) -> dict[str, list[str]]:
@@ -121,7 +111,8 @@ class Export:
         remaining = {step.judgement: step.name for step in self.steps}
         groups: dict[str, list[str]] = {}
         for equation in self.equations:
-            names = groups.setdefault(_file_name(equation.section), [])
+            section = re.sub(r"\W+", "_", equation.section).strip("_")
+            names = groups.setdefault(f"Section_{section}", [])
             names += [remaining.pop(step) for step in equation.steps if step in remaining]
         return {group: names for group, names in groups.items() if names}
 
@@ -153,15 +144,15 @@ class Export:
     @property
     def refuting(self) -> dict[str, Step]:
         """Return the steps that contradict claims of the note; none unless all are closed."""
-        keys = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
-        closed = {i: s for i, k in keys.items() if (s := self._stated[0][k]).closed}
+        ids = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
+        closed = {i: step for i, k in ids.items() if (step := self._stated[0][k]).closed}
         return closed if len(closed) == len(refutations.NEEDS) else {}
 
     def _assumptions(self, files: Iterable[str]) -> str:
         """Return the file that prints the axioms of all theorems together."""
-        proved = [name for name, text in self.lemmas.items() if "\nLemma " in text]
+        proved = [step.name for step in self.steps if step.closed]
         proved += refutations.NAMES.values() if self.refuting else ()
-        everything = ", ".join(f"@{name}" for name in proved)
+        everything = ", ".join(f"@{name}" for name in proved) or "I"
         return (
             f"From Wear Require Import {' '.join(files)}.\n"
             f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
@@ -177,18 +168,14 @@ class Export:
         texts = {f"{name}.v": text for name, text in (texts | dict(files)).items()}
         targets = " ".join(f"{name}.vo" for name in files)
         texts["Makefile"] = f"all: {targets}\n{MAKEFILE}"
-        present = {file: folder / file for file in texts if (folder / file).exists()}
-        same = {file for file, path in present.items() if path.read_text("utf-8") == texts[file]}
+        present = {file for file in texts if (folder / file).is_file()}
+        same = {f for f in present if (folder / f).read_bytes() == texts[f].encode()}
         write_all(folder, {file: texts[file] for file in texts if file not in same})
 
 
 def _importing(files: Iterable[str]) -> str:
     """Return the first lines of a file, which import other files."""
     return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
-
-
-def _file_name(section: str) -> str:
-    return "Section_" + re.sub(r"\W+", "_", section).strip("_")
 
 
 def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:

@@ -9,14 +9,12 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import sympy as sp
 
 from ..rules.limits import in_terms_of, later
 from ..symbols import symbol, t
 from .printer import term
-from .steps import Step
+from .steps import Step, stated
 
 _T = symbol("T")
 
@@ -25,26 +23,23 @@ def proof(step: Step) -> list[str]:
     """Return the lines of a proof by known limits."""
     relation = step.relation
     if not relation.has(sp.Limit):
-        return list(_named(step))
+        return _named(step)
     left, right = relation.args
     if right.has(sp.Limit) or not isinstance(left, sp.Limit):
         return _exists(step, left, right)
     return [*_known(step), *_passes(step, left.args[0])]
 
 
-def _named(step: Step) -> Iterator[str]:
-    """Yield the proof that a limit equals its name, since limits are unique."""
-    name = step.relation.lhs
-    for limit in (s for s in step.limits if isinstance(s.relation.lhs, sp.Limit)):
-        for premise in step.statement.premises:
-            defined = isinstance(premise.relation, sp.Equality) and premise.relation.lhs == name
-            if defined and premise.relation.has(sp.Limit):
-                inside = premise.relation.rhs.args[0]
-                yield f"apply (tends_unique (fun t => {term(inside)}) _ _ {premise.label})."
-                yield f"apply (tends_value _ ({term(limit.relation.rhs)})); [identity |]."
-                yield f"generalize ({step.cited(limit)}); apply tends_ext; intros t Ht."
-                yield "first [reflexivity | unfold Rdiv; f_equal; field; positive]."
-                return
+def _named(step: Step) -> list[str]:
+    """Return the proof that a limit equals its name, since limits are unique."""
+    limit = next(f for f in step.limits if isinstance(f.relation.lhs, sp.Limit))
+    defined = next(h for h in step.hypotheses if h.relation.args[0] == step.relation.lhs)
+    return [
+        f"apply (tends_unique (fun t => {term(defined.relation.rhs.args[0])}) _ _ {defined.proof}).",
+        f"apply (tends_value _ ({term(limit.relation.rhs)})); [identity |].",
+        f"generalize ({limit.proof}); apply tends_ext; intros t Ht.",
+        "first [reflexivity | unfold Rdiv; f_equal; field; positive].",
+    ]
 
 
 def _known(step: Step) -> list[str]:
@@ -52,33 +47,28 @@ def _known(step: Step) -> list[str]:
     lines = []
     moves = step.relation.has(t + _T)
     for i, limit in enumerate(step.limits):
-        inside, value = limit.relation.lhs.args[0], limit.relation.rhs
-        moved = term(later(inside))
         if not isinstance(limit.relation.lhs, sp.Limit):
             continue
+        inside, value = limit.relation.lhs.args[0], limit.relation.rhs
+        moved, known = term(later(inside)), limit.proof
         if value == sp.oo:
-            lines.append(
-                f"pose proof (tends_inv_diverges _ ({step.cited(limit)})) as L{i}; cbv beta in L{i}."
-            )
-            moved, value = f"/ ({moved})", sp.S.Zero
-        else:
-            lines.append(f"pose proof ({step.cited(limit)}) as L{i}.")
+            moved, value, known = f"/ ({moved})", sp.S.Zero, f"tends_inv_diverges _ ({known})"
+        lines.append(f"pose proof ({known}) as L{i}; cbv beta in L{i}.")
         if moves:
-            proof = f"generalize (later _ _ T L{i}); apply tends_ext; intros; rewrite ?derive_later; first [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity]"
-            lines.append(f"assert (M{i} : tends (fun t => {moved}) ({term(value)})) by ({proof}).")
+            lines.append(
+                f"assert (M{i} : tends (fun t => {moved}) ({term(value)})) by one_period_later T L{i}."
+            )
     return lines
 
 
 def _passes(step: Step, inside: sp.Expr) -> list[str]:
     """Write the expression in terms of known limits, and let the limit pass through it."""
     composed, _ = _composed(step, inside)
-    equations = [s for s in step.frontier if s.equates and not s.relation.has(sp.Limit)]
-    lines = [f"apply (tends_ext (fun t => {composed})).", "{ intros t Ht."]
-    lines += step.signs()
+    lines = [f"apply (tends_ext (fun t => {composed})).", "{ intros t Ht.", step.signs()]
     if inside.has(t + _T):
-        lines += ["assert (HT : 0 <= T + t) by lra.", *step.signs("(T + t)", "HT")]
-    timed = step.stated([s for s in equations if s.timed])
-    return [*lines, f"{timed}insert; identity. }}", "limit."]
+        lines += ["assert (HT : 0 <= T + t) by lra.", step.signs("(T + t)", "HT")]
+    equations = [f for f in step.given if f.equates and f.timed]
+    return [*lines, f"{stated(equations)}insert; identity. }}", "limit."]
 
 
 def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
@@ -86,29 +76,24 @@ def _composed(step: Step, inside: sp.Expr) -> tuple[str, sp.Expr]:
 
     If no known limit occurs, it should equal the quantity of the first one in another form.
     """
-    for other in step.frontier:
-        relation = other.relation
-        if other.equates and not relation.has(sp.Limit) and other.timed:
-            inside = inside.subs(relation.lhs, relation.rhs)
+    for other in step.given:
+        if other.equates and other.timed:
+            inside = inside.subs(*other.relation.args)
+    now = sorted((f.relation.args for f in step.limits), key=lambda args: args[1] == sp.oo)
+    known = [(limit.args[0], value) for limit, value in now]
+    known += [(later(quantity), value) for quantity, value in known]
     texts: dict[str, str] = {}
     values: dict[sp.Symbol, sp.Expr] = {}
-    for now in (True, False):
-        for i, limit in enumerate(sorted(step.limits, key=lambda s: s.relation.rhs == sp.oo)):
-            quantity, value = limit.relation.lhs.args[0], limit.relation.rhs
-            quantity = quantity if now else later(quantity)
-            stand_in = sp.Symbol(f"known{i}{'now' if now else 'later'}", positive=True)
-            infinite = value == sp.oo
-            text = f"(/ ({term(quantity)}))" if infinite else f"({term(quantity)})"
-            replaced = in_terms_of(inside, quantity, 1 / stand_in if infinite else stand_in)
-            if replaced.has(stand_in):
-                inside, texts[stand_in.name], values[stand_in] = (
-                    replaced,
-                    text,
-                    sp.S.Zero if infinite else value,
-                )
-    if step.limits and not texts:
-        known, value = step.limits[0].relation.args
-        return term(known.args[0]), value
+    for quantity, value in known:
+        name = sp.Symbol(f"known{len(texts)}", positive=True)
+        diverges = value == sp.oo
+        replaced = in_terms_of(inside, quantity, 1 / name if diverges else name)
+        if replaced.has(name):
+            inside, values[name] = replaced, sp.S.Zero if diverges else value
+            texts[name.name] = f"(/ ({term(quantity)}))" if diverges else f"({term(quantity)})"
+    if known and not texts:
+        quantity, value = known[0]
+        return term(quantity), value
     composed = term(inside)
     for name, text in texts.items():
         composed = composed.replace(name, text)

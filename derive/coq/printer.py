@@ -11,7 +11,6 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from functools import cache
 
 import sympy as sp
@@ -36,6 +35,8 @@ _RELATIONS = {
     sp.Equality: "{} = {}", sp.Unequality: "{} <> {}", sp.LessThan: "{} <= {}",
     sp.StrictLessThan: "{} < {}", sp.GreaterThan: "{1} <= {0}", sp.StrictGreaterThan: "{1} < {0}",
 }  # fmt: skip
+_ALWAYS = "forall t, 0 <= t -> "
+_CONNECTIVES = {sp.And: " /\\ ", sp.Equivalent: " <-> "}
 
 
 class UntranslatableError(ValueError):
@@ -52,27 +53,15 @@ def name(text: str) -> str:
     return f"{plain}_" if plain in _TAKEN else plain
 
 
-def distinct(expressions: Iterable[sp.Basic]) -> None:
-    """Refuse quantities and bound variables with equal names in Coq."""
-    atoms = set().union(*(e.atoms(sp.Symbol, AppliedUndef) for e in expressions)) - {t}
-    named: dict[str, sp.Basic | type] = {}
-    for atom in atoms:
-        text, meant = (field(atom), atom.func) if atom.args else (binder(atom), atom)
-        if named.setdefault(text, meant) != meant:
-            raise UntranslatableError(f"{named[text]} and {meant} would both be {text}")
+def quantity(atom: sp.Expr) -> str:
+    """Return the name of a symbol or of a function.
 
-
-def field(expr: AppliedUndef) -> str:
-    """Return the name of a function; one outside the vocabulary may share a symbol's name."""
-    text = expr.func.__name__
-    if text == "phi":
+    A function outside the vocabulary may share a symbol's name.
+    """
+    text = atom.func.__name__ if atom.args else str(atom)
+    if atom == t or (atom.args and text == "phi"):
         return text
-    return name(text) if text in QUANTITIES else f"{name(text)}_of"
-
-
-def binder(variable: sp.Symbol) -> str:
-    """Return the name of a bound variable."""
-    return "t" if variable == t else name(str(variable))
+    return name(text) if not atom.args or text in QUANTITIES else f"{name(text)}_of"
 
 
 def term(expr: sp.Expr) -> str:
@@ -99,15 +88,12 @@ class _CoqPrinter(StrPrinter):
         return str(super()._print(expr))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return binder(expr)
+        return quantity(expr)
 
     _print_Dummy = _print_Symbol
 
     def _print_Pi(self, _: sp.Expr) -> str:
         return "PI"
-
-    def _print_Exp1(self, _: sp.Expr) -> str:
-        return "exp 1"
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         negative = expr.as_coeff_Mul()[0] < 0
@@ -129,12 +115,9 @@ class _CoqPrinter(StrPrinter):
             raise UntranslatableError("a claim in scaled time")
         if expr.func == landau_o:
             raise UntranslatableError("an asymptotic relation")
-        if isinstance(expr, AppliedUndef):
-            head = field(expr)
-        elif expr.func in _FUNCTIONS:
-            head = _FUNCTIONS[expr.func]
-        else:
+        if expr.func not in _FUNCTIONS and not isinstance(expr, AppliedUndef):
             raise UntranslatableError(f"Coq's library has no {expr.func.__name__}")
+        head = _FUNCTIONS.get(expr.func) or quantity(expr)
         return " ".join((head, *map(_inner, expr.args)))
 
     def _print_Derivative(self, expr: sp.Derivative) -> str:
@@ -142,14 +125,14 @@ class _CoqPrinter(StrPrinter):
         if count != 1:
             raise UntranslatableError("a derivative of higher order")
         bare = isinstance(inner, AppliedUndef) and inner.args == (variable,)
-        function = field(inner) if bare else f"(fun {binder(variable)} => {term(inner)})"
-        return f"Derive {function} {binder(variable)}"
+        function = quantity(inner) if bare else f"(fun {quantity(variable)} => {term(inner)})"
+        return f"Derive {function} {quantity(variable)}"
 
     def _print_Subs(self, expr: sp.Subs) -> str:
         inner, variables, (point,) = expr.args
         if not isinstance(inner, sp.Derivative) or inner.args[0].args != tuple(variables):
             raise UntranslatableError("a substitution")
-        return f"Derive {field(inner.args[0])} {_inner(point)}"
+        return f"Derive {quantity(inner.args[0])} {_inner(point)}"
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
         (first, condition), (second, otherwise) = expr.args
@@ -160,12 +143,12 @@ class _CoqPrinter(StrPrinter):
 
     def _print_Integral(self, expr: sp.Integral) -> str:
         inner, (variable, low, high) = expr.args
-        return f"RInt (fun {binder(variable)} => {term(inner)}) {_inner(low)} {_inner(high)}"
+        return f"RInt (fun {quantity(variable)} => {term(inner)}) {_inner(low)} {_inner(high)}"
 
 
 _HEADS = (
     *(sp.Rational, sp.Symbol, sp.Add, sp.Mul, sp.Pow, sp.Function, sp.Derivative, sp.Subs),
-    *(sp.Integral, type(sp.pi), type(sp.E)),
+    *(sp.Integral, type(sp.pi)),
 )
 """The classes of expressions that the printer supports; a Piecewise is a Function."""
 
@@ -176,11 +159,9 @@ def proposition(relation: sp.Basic) -> str:
     An equation between a quantity and a limit asserts that the limit exists.
     """
     if isinstance(relation, Continuous):
-        return f"continuous_in_time {field(relation.args[0])}"
-    if isinstance(relation, sp.And):
-        return " /\\ ".join(f"({proposition(part)})" for part in relation.args)
-    if isinstance(relation, sp.Equivalent):
-        return " <-> ".join(f"({proposition(part)})" for part in relation.args)
+        return f"continuous_in_time {quantity(relation.args[0])}"
+    if relation.func in _CONNECTIVES:
+        return _CONNECTIVES[relation.func].join(f"({proposition(part)})" for part in relation.args)
     if isinstance(relation, sp.Equality):
         return _equation(*relation.args)
     if relation.func not in _RELATIONS:
@@ -190,33 +171,34 @@ def proposition(relation: sp.Basic) -> str:
 
 def _equation(left: sp.Expr, right: sp.Expr) -> str:
     if isinstance(left, sp.Limit) and isinstance(right, sp.Limit):
-        return f"exists l, {limit(left, 'l')} /\\ {limit(right, 'l')}"
+        return f"exists l, {_limit(left, 'l')} /\\ {_limit(right, 'l')}"
     for one, other in ((left, right), (right, left)):
         if isinstance(one, sp.Limit):
-            return limit(one, _inner(other) if other != sp.oo else None)
+            return _limit(one, _inner(other) if other != sp.oo else None)
     product = left.as_independent(sp.Limit) if left.has(sp.Limit) else None
     if product is not None and isinstance(product[1], sp.Limit) and right == 0:
-        return f"exists l, {limit(product[1], 'l')} /\\ {_inner(product[0])} * l = 0"
+        return f"exists l, {_limit(product[1], 'l')} /\\ {_inner(product[0])} * l = 0"
     return f"{term(left)} = {term(right)}"
 
 
-def limit(expr: sp.Limit, value: str | None) -> str:
+def _limit(expr: sp.Limit, value: str | None) -> str:
     """Return that a limit exists and equals the term ``value``; None: it is infinite."""
     inner, variable, point, _ = expr.args
     if point != sp.oo:
         raise UntranslatableError(f"a limit at {point}")
-    function = f"(fun {binder(variable)} => {term(inner)})"
+    function = f"(fun {quantity(variable)} => {term(inner)})"
     return f"diverges {function}" if value is None else f"tends {function} {value}"
 
 
 @cache
 def always(relation: sp.Basic) -> str:
-    """Return a relation for every t >= 0; without a quantifier if t is not free in it."""
-    if isinstance(relation, Continuous) or t not in relation.free_symbols or _bound(relation):
+    """Return a relation for every t >= 0; without a quantifier if t is free in limits at most."""
+    outside = relation.replace(sp.Limit, lambda *_: sp.S.Zero)
+    if isinstance(relation, Continuous) or t not in outside.free_symbols:
         return proposition(relation)
-    return f"forall t, 0 <= t -> {proposition(relation)}"
+    return f"{_ALWAYS}{proposition(relation)}"
 
 
-def _bound(relation: sp.Basic) -> bool:
-    """Return whether t occurs only inside limits."""
-    return t not in relation.replace(sp.Limit, lambda *_: sp.Integer(0)).free_symbols
+def timed(text: str) -> bool:
+    """Return whether a proposition holds for every t >= 0."""
+    return text.startswith(_ALWAYS)

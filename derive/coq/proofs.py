@@ -1,112 +1,99 @@
-"""Proofs: the tactics to try for a lemma, written from the judgement.
+"""Proofs: the tactics that close a lemma, written from the judgement.
 
 Overview
     SymPy proposes proofs, Coq checks them: a wrong proposal does not compile.  A claim is reduced
     to an identity: after the equations that it rests on are inserted, the difference of its sides
-    is a multiple of that of a known relation, or an expression of manifest sign.  Limits are in
-    ``limits``.
+    is a multiple of that of a known relation, or an expression of manifest sign.  General theorems
+    are in ``theorems``, limits in ``limits``.
 Key results
     script    the proof of a step
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import islice, product
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
+from operator import methodcaller
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.core.relational import _Inequality as Inequality
 
+from ..claims import Claim, claim_of
 from ..symbols import t
 from . import limits, theorems
 from .printer import term
-from .steps import Step
+from .steps import Step, stated
 
-_ATOMS = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
-
-
-def script(step: Step, way: int | None = None) -> str:
-    """Return the proof of a step: by the tactic with number ``way``, or the first to succeed."""
-    cited = theorems.proof(step)
-    if not cited and (step.limits or step.relation.has(sp.Limit)):
-        cited = "\n".join(limits.proof(step))
-    if cited:
-        return f"{step.introduction}\n{cited}"
-    start = ["intros t Ht.", *step.signs()] if step.timed else []
-    ways = _equation if step.equates else inequality
-    tactics = dict.fromkeys(ways(step, step.relation))
-    if way is not None:
-        return "\n".join((step.introduction, *start, f"{next(islice(tactics, way, None))}."))
-    trials = (f'timeout 12 ({text}); idtac "WAY {step.name} {i}"' for i, text in enumerate(tactics))
-    return "\n".join((step.introduction, *start, "first [\n  " + "\n| ".join(trials) + "]."))
+_NAMES = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 
 
-def _sources(step: Step) -> Iterator[list[Step]]:
-    """Yield the possible sources of a claim: its parents, then all steps that it rests on."""
-    given = [s for s in step.hypotheses if s.equates]
-    new = [s for s in given if all(s.statement.conclusion not in p.labels for p in step.parents)]
-    for steps in ([*step.frontier, *new], [*step.ancestors, *given]):
-        usable = {s.statement.conclusion: s for s in steps if step.timed or not s.timed}
-        yield [s for s in usable.values() if not s.relation.has(sp.Limit)]
+def script(step: Step) -> str:
+    """Return the proof of a step."""
+    labels = " ".join(step.labels.values())
+    return "\n".join(([f"intros {labels}."] if labels else []) + _body(step))
 
 
-def _equation(step: Step, goal: sp.Equality) -> Iterator[str]:
-    """Yield tactics for an equation, likely ones first."""
-    for steps in _sources(step):
-        equations = [s for s in steps if s.equates]
-        if equations:
-            first, *others = equations
-            factor = term(_factor(step, first.relation))
-            yield f"{step.stated(others)}multiple ({step.at_time(first)}) ({factor})"
-        end = "logarithm" if isinstance(goal.lhs, sp.log) else "identity"
-        yield f"{step.stated(steps)}insert; {end}"
+def _body(step: Step) -> list[str]:
+    if cited := theorems.proof(step):
+        return [cited]
+    if step.limits or step.relation.has(sp.Limit):
+        return limits.proof(step)
+    start = ["intros t Ht.", step.signs()] if step.timed else []
+    equates = isinstance(step.relation, sp.Equality)
+    return [*start, f"{_equation(step) if equates else _inequality(step, step.relation)}."]
 
 
-def _factor(step: Step, given: sp.Equality) -> sp.Expr:
-    """Return c for a claim that may be c times an equation, which is linear in its left side."""
-    unknown, dummy = step.relation.lhs, sp.Dummy()
-    flat = (given.lhs - given.rhs).xreplace({unknown: dummy})
-    slope = sp.diff(flat, dummy)
-    if isinstance(unknown, _ATOMS) and slope != 0 and not slope.has(dummy):
+def _equation(step: Step) -> str:
+    """Return the tactic for an equation: a multiple of the first one that it rests on, or equal."""
+    equations = [fact for fact in step.sources if fact.equates]
+    if not equations:
+        return "equal"
+    first, *others = equations
+    factor = _factor(step, first.relation)
+    tactic = "by_equation" if factor is None else f"multiple ({term(factor)})"
+    return f"{stated(others)}{tactic} ({first.at()})"
+
+
+def _factor(step: Step, given: sp.Equality) -> sp.Expr | None:
+    """Return c for a claim that is c times an equation, if its left side gives c."""
+    name, dummy = step.relation.lhs, sp.Dummy()
+    slope = sp.diff((given.lhs - given.rhs).xreplace({name: dummy}), dummy)
+    if isinstance(name, _NAMES) and slope != 0 and not slope.has(dummy):
         return 1 / slope
-    factor = sp.cancel(unknown / given.lhs) if given.lhs != 0 else sp.S.One
-    return factor if step.relation.rhs == factor * given.rhs else sp.S.One
+    factor = sp.cancel(name / given.lhs) if given.lhs != 0 else sp.S.One
+    return factor if step.relation.rhs == factor * given.rhs else None
 
 
-def _inserted(goal: sp.Basic, equations: Sequence[sp.Equality]) -> sp.Basic:
+def _inserted(goal: Claim, equations: Iterable[sp.Basic]) -> Claim:
     """Insert equations into the goal and into each other, as the tactic does."""
-    for i, equation in enumerate(equations):
-        name, value = equation.args
-        if isinstance(name, _ATOMS) and not value.has(name):
-            goal = _put(goal, name, value)
-            rest = [_put(other, name, value) for other in equations[i + 1 :]]
-            return _inserted(goal, rest)
+    rest = [claim_of(equation) for equation in equations]
+    while rest:
+        name, value = rest.pop(0).relation.args
+        if isinstance(name, _NAMES) and not value.has(name):
+            insert = methodcaller("xreplace", {name: value})
+            goal, *rest = (claim.map(insert) for claim in (goal, *rest))
     return goal
 
 
-def _put(relation: sp.Basic, name: sp.Expr, value: sp.Expr) -> sp.Basic:
-    """Insert an equation into a relation without evaluating it."""
-    if isinstance(relation, Relational):
-        return relation.func(*(a.xreplace({name: value}) for a in relation.args), evaluate=False)
-    return relation.func(*(_put(a, name, value) for a in relation.args), evaluate=False)
+def _inequality(step: Step, claim: sp.Basic) -> str:
+    """Return the tactic for an inequality, or for two."""
+    implicit = (f for f in step.ancestors if f.equates and not isinstance(f.relation.lhs, _NAMES))
+    facts = list(dict.fromkeys((*step.sources, *implicit)))
+    bounds = [b for f in (*facts, *step.hypotheses) for b in _bounds(f.relation)]
+    goal = _inserted(claim_of(claim), [f.relation for f in facts if f.equates]).relation
+    start = f"{stated(f for f in facts if f.equates or not step.timed)}insert; "
+    if isinstance(goal, sp.Equivalent):
+        return f"{start}split; intro Q; first [arithmetic | from_inequality Q 1]"
+    if isinstance(goal, sp.And):
+        return f"{start}split; [{' | '.join(_first(_ways(part, bounds)) for part in goal.args)}]"
+    return start + _first(_ways(goal, bounds))
 
 
-def inequality(step: Step, claim: sp.Basic) -> Iterator[str]:
-    """Yield tactics for an inequality, or for several."""
-    for steps in _sources(step):
-        at_all_times = (s for s in step.hypotheses if s.timed)
-        facts = [bound for s in (*steps, *at_all_times) for bound in _bounds(s.relation)]
-        goal = _inserted(claim, [s.relation for s in steps if s.equates])
-        start = f"{step.stated(steps)}insert; "
-        if isinstance(goal, sp.And):
-            parts = (f"first [{' | '.join(_ways(part, facts))}]" for part in goal.args)
-            yield f"{start}split; [{' | '.join(parts)}]"
-        elif isinstance(goal, sp.Equivalent):
-            yield f"{start}split; intro Q; first [arithmetic | from_inequality Q 1]"
-        else:
-            yield from (f"{start}{way}" for way in _ways(goal, facts))
+def _first(tactics: Iterable[str]) -> str:
+    """Return the first of several tactics that succeeds."""
+    return f"first [{' | '.join(dict.fromkeys(tactics))}]"
 
 
 Bound = tuple[sp.Expr, sp.Expr]
@@ -123,33 +110,33 @@ def _bounds(fact: sp.Basic) -> Iterator[Bound]:
                 yield part.lts, part.gts
 
 
-def _ways(goal: sp.Basic, facts: Sequence[Bound]) -> Iterator[str]:
+def _ways(goal: sp.Basic, bounds: Sequence[Bound]) -> Iterator[str]:
     """Yield tactics for one inequality."""
     if isinstance(goal, Relational):
         yield from _ordered(goal)
     yield "solve [arithmetic]"
     if isinstance(goal, Inequality):
-        forms = (*_multiples(goal, facts), *_slacks(goal, facts), *_manifest(goal))
+        forms = (*_multiples(goal, bounds), *_slacks(goal, bounds), *_manifest(goal))
         yield from (f"manifest ({term(form)})" for form in forms)
     yield "same_as_known"
 
 
-def _multiples(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
+def _multiples(goal: Inequality, bounds: Sequence[Bound]) -> Iterator[sp.Expr]:
     """Yield the difference of the sides as multiples of the differences of known inequalities."""
-    for low, high in facts:
+    for low, high in bounds:
         factor = sp.factor(sp.cancel((goal.gts - goal.lts) / (high - low)))
         if factor.count_ops() < (goal.gts - goal.lts).count_ops():
             yield sp.Mul(factor, high - low, evaluate=False)
 
 
-def _slacks(goal: Inequality, facts: Sequence[Bound]) -> Iterator[sp.Expr]:
+def _slacks(goal: Inequality, bounds: Sequence[Bound]) -> Iterator[sp.Expr]:
     """Yield the difference of the sides with positive coefficients in the slacks of inequalities.
 
     The slack of ``a <= b`` is ``b - a``; it replaces a field or datum in it.
     """
     numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
     places: dict[sp.Expr, list[sp.Expr]] = {}
-    for low, high in facts:
+    for low, high in bounds:
         for atom in sorted((high - low).atoms(AppliedUndef, sp.Symbol), key=str):
             if atom != t and numerator.has(atom) and sp.diff(high - low, atom) in (1, -1):
                 places.setdefault(atom, []).append(high - low)

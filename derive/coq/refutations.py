@@ -17,12 +17,10 @@ import sympy as sp
 
 from ..equations import TEXTS, written
 from ..results.steady_state import closure, roughness
-from ..symbols import symbols
+from ..symbols import symbol
+from ..written import read
 from .steps import Step
 from .theorems import template
-
-U_a, u_c, u_inf, u_cum = symbols("U_a u_c u_inf u_cum")
-f_c, h_0, sigma_c0, M, H_c = symbols("f_c h_0 sigma_c0 M H_c")
 
 NAMES = MappingProxyType(
     {
@@ -37,28 +35,16 @@ NEEDS = ("19", "18", "closure-ratio", "21")
 
 (_EQ_16B,), (_EQ_19,), (_EQ_21,) = (written("printed", TEXTS[each]) for each in ("16b", "19", "21"))
 
-RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, sp.Gt(M, 0, evaluate=False), sp.Eq(h_0, sigma_c0))
-"""Relations that contain all quantities of the refutations."""
-
-_QUARTER = sp.Eq(f_c, sp.Rational(1, 4))
-_AT_REST = (
-    sp.Eq(U_a, 0, evaluate=False),
-    _QUARTER,
-    sp.Eq(h_0, sp.Rational(27, 25000)),
-    sp.Eq(sigma_c0, sp.Rational(9, 25000)),
-    sp.Gt(u_cum, 0, evaluate=False),
-)
+_AT_REST = ("U_a = 0", "f_c = 1/4", "h_0 = 27/25000", "sigma_c0 = 9/25000", "u_cum > 0")
 """Section 4 with the load at rest."""
 
-_TOTAL = sp.simplify(2 * _EQ_21.rhs / (1 + sp.tanh(4 - 2 / f_c)))
-_WITH_DATA = (
-    _EQ_21,
-    sp.Eq(M, _TOTAL, evaluate=False),
-    sp.Eq(M, 44 * sp.pi / 10**6, evaluate=False),
-    _QUARTER,
-    sp.Gt(H_c, 0, evaluate=False),
-)
-"""(21) with the data of section 4."""
+_M = sp.simplify(2 * _EQ_21.rhs / (1 + sp.tanh(4 - 2 / symbol("f_c"))))
+_TOTAL = sp.Eq(symbol("M"), _M, evaluate=False)
+_WITH_DATA = ("M = 11 pi/250000", "f_c = 1/4", "H_c > 0")
+"""The wear of a cycle at the largest pressure, and (21) with the data of section 4."""
+
+RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, _TOTAL, *map(read, _AT_REST))
+"""Relations that contain all quantities of the refutations."""
 
 
 def text(steps: Mapping[str, Step]) -> str:
@@ -68,14 +54,14 @@ def text(steps: Mapping[str, Step]) -> str:
         drift=steps["19"],
         rate=steps["18"],
         ratio=steps["closure-ratio"],
-        at_rest=_AT_REST,
+        at_rest=map(read, _AT_REST),
         printed_bracket=_EQ_16B,
         bracket=_EQ_16B.atoms(sp.Limit).pop().args[0],
         line=_EQ_19,
-        u_c=u_c,
-        u_inf=u_inf,
-        criterion=sp.Gt(sp.tanh(4 - 2 / f_c), -1),
-        printed_limit=sp.Gt(f_c, sp.Rational(1, 8)),
-        data=_WITH_DATA,
+        u_c=symbol("u_c"),
+        u_inf=symbol("u_inf"),
+        criterion=read("tanh(4 - 2/f_c) > -1"),
+        printed_limit=read("f_c > 1/8"),
+        data=(_EQ_21, _TOTAL, *map(read, _WITH_DATA)),
         quotient=closure / roughness,
     )

@@ -15,23 +15,18 @@ from __future__ import annotations
 
 import hashlib
 import re
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import cache
+from operator import methodcaller
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..hypotheses import Hypothesis
 from ..kernel import Judgement
 from ..symbols import QUANTITIES, t
 from . import printer
-
-_LAW = (
-    ("law_positive", "forall r, 0 < phi r"),
-    ("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
-    ("law_differentiable", "forall r, ex_derive phi r"),
-)
-"""The assumptions on an unspecified contact law."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +40,15 @@ class Premise:
     @property
     def timed(self) -> bool:
         """Return whether it holds for every t >= 0."""
-        return self.proposition.startswith("forall t, 0 <= t -> ")
+        return printer.timed(self.proposition)
+
+
+_LAW = (
+    Premise("law_positive", "forall r, 0 < phi r"),
+    Premise("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
+    Premise("law_differentiable", "forall r, ex_derive phi r"),
+)
+"""The assumptions on an unspecified contact law."""
 
 
 @dataclass(frozen=True)
@@ -64,34 +67,69 @@ class Statement:
 @cache
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError if Coq's library lacks its terms."""
-    premises = [_premise(h) for h in judgement.hypotheses]
     relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
     free = frozenset().union(*(relation.free_symbols for relation in relations))
-    domains = [relation for relation in judgement.domains if _of_quantity(relation.args[0])]
-    premises += [_domain(r) for r in domains if r.args[0].args or r.args[0] in free]
-    premises += _assumed(judgement)
-    premises += _smooth(judgement)
+    premises = [_premise(f"for_{_words(h.text)}", h.relation) for h in judgement.hypotheses]
+    premises += [
+        _premise(f"domain_{printer.quantity(atom)}", relation)
+        for relation in (*judgement.domains, *_signs(judgement.relation))
+        if (atom := relation.args[0]).args == (t,) or atom in free - {t}
+    ]
+    rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
+    moving = sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)})
+    premises += [
+        Premise(f"smooth_{field}", f"forall t, 0 <= t -> ex_derive {field} t") for field in moving
+    ]
     conclusion = printer.always(claim(judgement))
     if any(
-        re.search(r"\bphi\b", text) for text in (conclusion, *(p.proposition for p in premises))
+        re.search(r"\bphi\b", said) for said in (conclusion, *(p.proposition for p in premises))
     ):
-        premises += [Premise(label, said) for label, said in _LAW]
-    return Statement(_numbered(premises), conclusion)
+        premises += _LAW
+    return Statement(_distinct(premises), conclusion)
+
+
+def _premise(label: str, relation: sp.Basic) -> Premise:
+    return Premise(label, printer.always(relation), relation)
+
+
+def _words(text: str) -> str:
+    """Return a hypothesis in words as part of a name."""
+    words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
+    return words.removeprefix("the_")[:40].rstrip("_")
+
+
+def _signs(relation: sp.Basic) -> Iterator[sp.Basic]:
+    """Yield the signs of symbols outside the vocabulary, which a rule or an author introduced."""
+    for symbol in sorted(relation.free_symbols, key=str):
+        outside = symbol.name not in QUANTITIES and not isinstance(symbol, sp.Dummy)
+        if outside and symbol.is_nonnegative:
+            yield (sp.Gt if symbol.is_positive else sp.Ge)(symbol, 0, evaluate=False)
+
+
+def _distinct(premises: Iterable[Premise]) -> tuple[Premise, ...]:
+    """Return the premises, each once, with distinct labels."""
+    taken: Counter[str] = Counter()
+    distinct: dict[str, Premise] = {}
+    for premise in premises:
+        if premise.proposition not in distinct:
+            taken[premise.label] += 1
+            number = f"_{count}" if (count := taken[premise.label]) > 1 else ""
+            distinct[premise.proposition] = replace(premise, label=premise.label + number)
+    return tuple(distinct.values())
 
 
 @cache
 def key(judgement: Judgement) -> str:
     """Return the hash of a step: of its statement, its rule, and the steps that it cites.
 
-    UntranslatableError if it cannot be stated.
+    It is empty if the step cannot be stated.
     """
-    cited = []
-    for parent in judgement.parents:
-        try:
-            cited.append(key(parent))
-        except printer.UntranslatableError:
-            continue
-    text = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
+    try:
+        text = statement(judgement).text
+    except printer.UntranslatableError:
+        return ""
+    cited = filter(None, map(key, judgement.parents))
+    text = "\n".join((type(judgement.rule).__name__, text, *cited))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
@@ -101,87 +139,32 @@ def claim(judgement: Judgement) -> sp.Basic:
 
     The first premise gives this function.
     """
-    relation = judgement.relation
-    for slope in relation.atoms(sp.Derivative):
-        if isinstance(slope.expr, sp.Symbol):
-            if not judgement.parents:
-                raise printer.UntranslatableError(f"{slope} of no function that is known")
-            given = judgement.parents[0].relation.rhs
-            function = sp.Derivative(given, *slope.variables, evaluate=False)
-            relation = relation.func(
-                *(a.xreplace({slope: function}) for a in relation.args), evaluate=False
-            )
-    return relation
+    slopes = [d for d in judgement.relation.atoms(sp.Derivative) if isinstance(d.expr, sp.Symbol)]
+    if not slopes:
+        return judgement.relation
+    if not judgement.parents:
+        raise printer.UntranslatableError(f"{slopes[0]} of no function that is known")
+    given = judgement.parents[0].relation.rhs
+    functions = {d: sp.Derivative(given, *d.variables, evaluate=False) for d in slopes}
+    return judgement.claim.map(methodcaller("xreplace", functions)).relation
 
 
-@cache
-def _premise(hypothesis: Hypothesis) -> Premise:
-    relation = hypothesis.relation
-    return Premise(_label(hypothesis.text), printer.always(relation), relation)
-
-
-@cache
-def _domain(relation: sp.Basic) -> Premise:
-    atom = relation.args[0]
-    label = f"domain_{printer.name(atom.func.__name__ if atom.args else str(atom))}"
-    return Premise(label, printer.always(relation), relation)
-
-
-def _assumed(judgement: Judgement) -> list[Premise]:
-    """Return the signs of symbols outside the vocabulary, which a rule or an author introduced."""
-    symbols = sorted(judgement.relation.free_symbols, key=str)
-    others = [s for s in symbols if s.name not in QUANTITIES and not isinstance(s, sp.Dummy)]
-    signs = ((s, sp.Gt if s.is_positive else sp.Ge) for s in others if s.is_nonnegative)
-    return [_domain(relation(symbol, 0, evaluate=False)) for symbol, relation in signs]
-
-
-def _smooth(judgement: Judgement) -> list[Premise]:
-    """Return the premises that fields with rates are differentiable."""
-    relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
-    rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
-    fields = {printer.field(f) for d in rates for f in d.atoms(AppliedUndef)}
-    form = "forall t, 0 <= t -> ex_derive {} t"
-    return [Premise(f"smooth_{field}", form.format(field)) for field in sorted(fields)]
-
-
-def _of_quantity(atom: sp.Expr) -> bool:
-    """Return whether an atom is a datum, or a field at time t; time and initial values are not."""
-    return atom != t and (not atom.args or atom.args == (t,))
-
-
-def _label(text: str) -> str:
-    words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
-    return "for_" + words.removeprefix("the_")[:40].rstrip("_")
-
-
-def _numbered(premises: list[Premise]) -> tuple[Premise, ...]:
-    """Return the premises, each once, with distinct labels."""
-    distinct: dict[str, Premise] = {}
-    for premise in premises:
-        distinct.setdefault(premise.proposition, premise)
-    taken: dict[str, int] = {}
-    result = []
-    for premise in distinct.values():
-        count = taken[premise.label] = taken.get(premise.label, 0) + 1
-        label = premise.label if count == 1 else f"{premise.label}_{count}"
-        result.append(Premise(label, premise.proposition, premise.relation))
-    return tuple(result)
-
-
-def world(relations: list[sp.Basic]) -> str:
+def world(relations: Iterable[sp.Basic]) -> str:
     """Return the record of all quantities, with their types, and a world that differs in the wear.
 
     UntranslatableError if two of them would have one name.
     """
-    printer.distinct(relations)
+    meanings: dict[str, sp.Basic | type] = {}
     fields = {"law": "> contact_law"}
     for relation in relations:
         bound = {v for e in relation.atoms(sp.Derivative, sp.Integral) for v in e.variables}
-        for function in relation.atoms(AppliedUndef):
-            fields[printer.field(function)] = " R -> R"
-        for symbol in relation.atoms(sp.Symbol):
-            if symbol not in bound and str(symbol) != "t" and not isinstance(symbol, sp.Dummy):
-                fields.setdefault(printer.name(str(symbol)), " R")
+        for atom in relation.atoms(sp.Symbol, AppliedUndef) - {t}:
+            name, meant = printer.quantity(atom), atom.func if atom.args else atom
+            if meanings.setdefault(name, meant) != meant:
+                both = f"{meanings[name]} and {meant}"
+                raise printer.UntranslatableError(f"{both} would both be {name}")
+            if atom not in bound and not isinstance(atom, sp.Dummy):
+                fields[name] = " R -> R" if atom.args else " R"
     fields.pop("phi", None)
     rows = ";\n".join(f"  {name} :{kind}" for name, kind in sorted(fields.items()))
     same = "; ".join(f"{name} := {name}" for name in sorted(fields))

@@ -1,9 +1,11 @@
-"""Steps: judgements as lemmas with the steps that they rest on, and the record of closed ones.
+"""Steps: judgements as lemmas with the facts that their proofs may cite, and the record.
 
 Overview
-    The record has the outcome of Coq for each statement, by its hash, for users without Coq.
+    A proof cites premises of its lemma, and closed steps whose premises the lemma has too.  The
+    record has the outcome of Coq for each statement, by its hash, for users without Coq.
 Key results
-    Step             a judgement with its statement, its name and the steps that it rests on
+    Step             a judgement with its statement and the steps that it rests on
+    Fact             what a proof may cite
     steps            the steps of judgements, and the reasons of those that cannot be stated
     record           the committed record
     proved_by_coq    whether a judgement is closed
@@ -24,7 +26,7 @@ from sympy.logic.boolalg import BooleanTrue
 
 from ..claims import Predicate
 from ..kernel import Judgement
-from .printer import UntranslatableError
+from .printer import UntranslatableError, timed
 from .statements import Statement, claim, key, statement
 
 RECORD = Path(__file__).parent / "record.json"
@@ -33,17 +35,34 @@ Row = dict[str, Any]
 Record = Mapping[str, Row]
 
 
+@dataclass(frozen=True)
+class Fact:
+    """A claim and the Coq term that proves it; a timed one holds for every t >= 0."""
+
+    relation: sp.Basic
+    proof: str
+    timed: bool
+
+    @property
+    def equates(self) -> bool:
+        """Return whether the claim is an equation that contains no limit."""
+        return isinstance(self.relation, sp.Equality) and not self.relation.has(sp.Limit)
+
+    def at(self, time: str = "t", instant: str = "Ht") -> str:
+        """Return the proof at a time; ``instant`` proves that it is no time before 0."""
+        return f"{self.proof} {time} {instant}" if self.timed else self.proof
+
+
 @dataclass(frozen=True, eq=False)
 class Step:
-    """A judgement as a lemma."""
+    """A judgement as a lemma; a closed one has a proof and can be cited."""
 
     key: str
     judgement: Judgement
     statement: Statement
     parents: tuple[Step, ...]
     relation: sp.Basic
-    closed: bool = True
-    """Whether the step has a proof and can be cited."""
+    closed: bool
 
     @property
     def name(self) -> str:
@@ -58,28 +77,17 @@ class Step:
     @property
     def timed(self) -> bool:
         """Return whether the claim is about every t >= 0."""
-        return self.statement.conclusion.startswith("forall t, 0 <= t -> ")
-
-    @property
-    def equates(self) -> bool:
-        """Return whether the claim is an equation."""
-        return isinstance(self.relation, sp.Equality)
-
-    @property
-    def assumed(self) -> bool:
-        """Return whether the claim is one of the premises, so that no proof is needed."""
-        return any(p.proposition == self.statement.conclusion for p in self.statement.premises)
-
-    @property
-    def introduction(self) -> str:
-        """Return the tactic that names the premises."""
-        labels = " ".join(p.label for p in self.statement.premises)
-        return f"intros {labels}." if labels else "idtac."
+        return timed(self.statement.conclusion)
 
     @cached_property
     def labels(self) -> dict[str, str]:
         """Return the label of each premise."""
         return {p.proposition: p.label for p in self.statement.premises}
+
+    @property
+    def assumed(self) -> bool:
+        """Return whether the claim is one of the premises, so that no proof is needed."""
+        return self.statement.conclusion in self.labels
 
     def usable(self, other: Step) -> bool:
         """Return whether another step's premises are all among those of this one."""
@@ -87,86 +95,83 @@ class Step:
             p.proposition in self.labels for p in other.statement.premises
         )
 
-    def cited(self, other: Step) -> str:
-        """Return the proof term of another step, from this one's premises."""
-        if other.statement.conclusion in self.labels:
-            return self.labels[other.statement.conclusion]
-        return " ".join(
-            (other.name, *(self.labels[p.proposition] for p in other.statement.premises))
-        )
-
-    def at_time(self, other: Step, time: str = "t", proof: str = "Ht") -> str:
-        """Return the proof term of another step's claim at a time."""
-        return f"{self.cited(other)} {time} {proof}" if other.timed else self.cited(other)
-
-    def stated(self, steps: Iterable[Step]) -> str:
-        """Return the tactic that states the claims of other steps, equations to be inserted."""
-        return "".join(f"given ({self.at_time(other)}); " for other in steps)
-
-    def signs(self, time: str = "t", proof: str = "Ht") -> list[str]:
-        """Return the tactics that state the known signs at a time.
-
-        They come from inequalities, and from names that are positive and equal an expression.
-        """
-        lines = []
-        rests_on = [s for s in (*self.hypotheses, *self.ancestors) if not s.relation.has(sp.Limit)]
-        signs = {s.relation.args: s for s in self.hypotheses if isinstance(s.relation, sp.Gt)}
-        for other in rests_on:
-            known = self.at_time(other, time, proof)
-            if isinstance(other.relation, (Inequality, sp.Ne)):
-                lines.append(f"pose proof ({known}).")
-            elif isinstance(other.relation, sp.And):
-                lines.append(f"given ({known}).")
-            elif other.equates and (other.relation.lhs, 0) in signs:
-                sign = signs[other.relation.lhs, sp.S.Zero]
-                lines.append(f"pose proof (sign_of ({self.at_time(sign, time, proof)}) ({known})).")
-        return list(dict.fromkeys(lines))
+    def fact(self, other: Step) -> Fact:
+        """Return a usable step as a fact."""
+        labels = (self.labels[p.proposition] for p in other.statement.premises)
+        proof = self.labels.get(other.statement.conclusion) or " ".join((other.name, *labels))
+        return Fact(other.relation, proof, other.timed)
 
     @cached_property
-    def frontier(self) -> list[Step]:
-        """Return the usable parents, and the nearest usable ancestors of the other parents."""
-        nearest: dict[str, Step] = {}
-
-        def visit(step: Step) -> None:
-            for parent in step.parents:
-                if self.usable(parent):
-                    nearest.setdefault(parent.name, parent)
-                else:
-                    visit(parent)
-
-        visit(self)
-        return list(nearest.values())
-
-    @cached_property
-    def ancestors(self) -> list[Step]:
-        """Return all usable steps that this one rests on, nearest first."""
-        usable: dict[str, Step] = {}
-        row: list[Step] = list(self.parents)
-        while row:
-            for step in row:
-                if self.usable(step):
-                    usable.setdefault(step.name, step)
-            row = list(dict.fromkeys(p for step in row for p in step.parents))
-        return list(usable.values())
-
-    @cached_property
-    def hypotheses(self) -> list[Step]:
-        """Return the premises with a relation, as steps to cite."""
+    def hypotheses(self) -> list[Fact]:
+        """Return the premises that have a relation."""
         return [
-            Step(p.label, self.judgement, Statement((p,), p.proposition), (), p.relation)
+            Fact(p.relation, p.label, p.timed)
             for p in self.statement.premises
             if not isinstance(p.relation, (BooleanTrue, Predicate))
         ]
 
     @cached_property
-    def limits(self) -> list[Step]:
-        """Return the nearest usable steps whose claims are limits."""
-        return [s for s in self.frontier if s.equates and s.relation.has(sp.Limit)]
+    def given(self) -> list[Fact]:
+        """Return the facts from which the claim follows: the parents that can be cited."""
+        return list(dict.fromkeys(self.fact(p) for p in self.parents if self.usable(p)))
+
+    @cached_property
+    def ancestors(self) -> list[Fact]:
+        """Return all facts that the claim rests on, nearest first."""
+        found: dict[str, Step] = {}
+        row: list[Step] = list(self.parents)
+        while row:
+            found |= {step.name: step for step in row if step.name not in found}
+            row = list(dict.fromkeys(p for step in row for p in step.parents))
+        return [self.fact(step) for step in found.values() if self.usable(step)]
+
+    @cached_property
+    def sources(self) -> list[Fact]:
+        """Return the facts from which the claim follows at one time, without limits.
+
+        They are the given ones and the equations among the hypotheses that no parent has; or all,
+        where a parent cannot be cited.
+        """
+        if all(map(self.usable, self.parents)):
+            old = {self.labels.get(p) for parent in self.parents for p in parent.labels}
+            facts = [*self.given, *(h for h in self.hypotheses if h.equates and h.proof not in old)]
+        else:
+            facts = [*self.ancestors, *(h for h in self.hypotheses if h.equates)]
+        now = (f for f in facts if self.timed or not f.timed)
+        return [f for f in dict.fromkeys(now) if not f.relation.has(sp.Limit)]
 
     @property
-    def diverging(self) -> Step:
-        """Return the first of these steps with an infinite limit."""
-        return next(s for s in self.limits if s.relation.rhs == sp.oo)
+    def limits(self) -> list[Fact]:
+        """Return the given limits."""
+        return [f for f in self.given if f.relation.has(sp.Limit)]
+
+    @property
+    def diverging(self) -> Fact:
+        """Return the first given limit that is infinite."""
+        return next(f for f in self.limits if f.relation.rhs == sp.oo)
+
+    def signs(self, time: str = "t", instant: str = "Ht") -> str:
+        """Return the tactics that state the known signs at a time.
+
+        They come from inequalities, and from names that are positive and equal an expression.
+        """
+        lines = []
+        positive = {f.relation.args: f for f in self.hypotheses if isinstance(f.relation, sp.Gt)}
+        for fact in (*self.hypotheses, *self.ancestors):
+            known, name = fact.at(time, instant), fact.relation.args[:1]
+            if isinstance(fact.relation, (Inequality, sp.Ne)):
+                lines.append(f"pose proof ({known}).")
+            elif isinstance(fact.relation, sp.And):
+                lines.append(f"given ({known}).")
+            elif fact.equates and (*name, 0) in positive:
+                sign = positive[(*name, sp.S.Zero)].at(time, instant)
+                lines.append(f"pose proof (sign_of ({sign}) ({known})).")
+        return "\n".join(dict.fromkeys(lines))
+
+
+def stated(facts: Iterable[Fact]) -> str:
+    """Return the tactic that states facts at the time t, equations to be inserted."""
+    return "".join(f"given ({fact.at()}); " for fact in facts)
 
 
 def steps(
@@ -181,32 +186,25 @@ def steps(
     refused: dict[str, str] = {}
     for judgement in judgements:
         try:
-            stated, name = statement(judgement), key(judgement)
+            lemma = statement(judgement)
         except UntranslatableError as reason:
             if judgement.parents:
                 refused[str(judgement.relation)] = str(reason)
         else:
-            parents = [known[k] for p in judgement.parents if (k := _key(p)) in known]
-            proved = name in closed
-            new = Step(name, judgement, stated, tuple(parents), claim(judgement), proved)
+            name = key(judgement)
+            parents = tuple(known[k] for p in judgement.parents if (k := key(p)) in known)
+            new = Step(name, judgement, lemma, parents, claim(judgement), name in closed)
             known.setdefault(name, new)
     return known, refused
 
 
-def _key(judgement: Judgement) -> str | None:
-    try:
-        return key(judgement)
-    except UntranslatableError:
-        return None
-
-
 @cache
 def record() -> Record:
-    """Return the committed record: whether a step is closed, by which tactic, or why not."""
+    """Return the committed record: whether a step is closed, or why not."""
     rows: Record = json.loads(RECORD.read_text(encoding="utf-8"))
     return rows
 
 
 def proved_by_coq(judgement: Judgement) -> bool:
     """Return whether Coq has closed a judgement, according to the record."""
-    return bool(record().get(_key(judgement) or "", {}).get("closed"))
+    return bool(record().get(key(judgement), {}).get("closed"))

@@ -18,12 +18,12 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ..claims import Continuous
 from ..rules.growth import expanded
-from ..rules.inequalities import LogarithmicSlope
 from ..rules.limits import in_terms_of
 from ..symbols import DATA, symbol, t
-from .printer import always, binder, field, proposition, term
-from .steps import Step
+from .printer import always, proposition, quantity, term
+from .steps import Step, stated
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -36,17 +36,17 @@ Values = dict[str, Any]
 
 
 def _follows(step: Step) -> Values:
-    law = step.parents[0].relation
+    law = step.given[0].relation
     return {"pressure": law.lhs, "root": law.rhs.xreplace({_LOAD: _LOAD.subs(t, 0)})}
 
 
 def _separates(step: Step) -> Values:
     along = _by_parts(step)
-    rate, y = step.parents[0], along["integral"].limits[0][2]
+    rate, y = step.given[0], along["integral"].limits[0][2]
     along["speed"] = step.relation.lhs / t
     own = [s for s in step.ancestors if s.equates and s.relation.lhs == sp.Derivative(y, t)]
     if own:
-        return along | {"rates": dict.fromkeys((own[0], step.frontier[0]))}
+        return along | {"rates": dict.fromkeys((own[0], step.given[0]))}
     factor = along["speed"] / rate.relation.rhs
     return along | {"rates": [rate], "inverse": _inverse(step, y) | {"factor": factor}}
 
@@ -56,9 +56,9 @@ def _inverse(step: Step, y: sp.Expr) -> Values:
 
     A constant beside the data is eliminated by the wear, so that the sign of P is manifest.
     """
-    wear = step.parents[1]
+    wear = step.given[1]
     u, level = wear.relation.lhs, wear.relation.rhs.xreplace({_LOAD: _LOAD.subs(t, 0)})
-    apart = sp.Mul(*(s.relation.lhs for s in step.parents if isinstance(s.relation, sp.Ne)))
+    apart = sp.Mul(*(s.relation.lhs for s in step.given if isinstance(s.relation, sp.Ne)))
     (odds,) = level.atoms(sp.log)
     one, other = sp.fraction(odds.args[0])
     rise, flat = sp.Symbol("rise"), level.subs(odds, sp.Function("L")(y))
@@ -80,62 +80,43 @@ def _inverse(step: Step, y: sp.Expr) -> Values:
 
 def _by_parts(step: Step) -> Values:
     """Return an integral up to a field, its first value and the proof that it is continuous."""
-    (integral,) = (step.relation if step.rule == "Separate" else step.parents[0].relation).atoms(
-        sp.Integral
-    )
+    equation = step.relation if step.rule == "Separate" else step.given[0].relation
+    (integral,) = equation.atoms(sp.Integral)
     _, start, y = integral.limits[0]
     first = [h for h in step.hypotheses if h.relation.args == (y.subs(t, 0), start)]
-    continuity = [s for s in step.parents if s.rule == "Follows"]
+    continuity = [f for f in step.given if isinstance(f.relation, Continuous)]
     return {"integral": integral, "first": first, "continuity": continuity}
 
 
-def _grows(step: Step) -> Values:
-    grown = step.relation.gts
-    bound = next(s for s in step.frontier if s.relation.has(sp.Derivative(grown, t)))
-    start = next(s for s in step.frontier if s.relation.lhs == grown.subs(t, 0))
-    return {"name": field(grown), "bound": bound, "start": start}
-
-
 def _integrates(step: Step) -> Values:
-    slope = sp.Derivative(step.relation.lhs, t)
-    rate = next(s for s in step.frontier if s.relation.lhs == slope)
-    (driving,) = rate.relation.rhs.atoms(sp.Derivative)
-    factor = sp.cancel(rate.relation.rhs / driving)
-    return {"rate": rate, "driving": driving, "factor": factor}
+    rate = step.given[0].relation.rhs
+    (driving,) = rate.atoms(sp.Derivative)
+    return {"driving": driving.expr, "factor": sp.cancel(rate / driving)}
 
 
 def _diverges(step: Step) -> Values:
-    (growth,) = (s for s in step.frontier if s.timed)
-    flat = sp.Symbol("flat")
-    inside = step.relation.lhs.args[0].xreplace({growth.relation.gts: flat})
-    start, slope = inside.subs(flat, 0), sp.diff(inside, flat)
-    return {"growth": growth, "start": start, "slope": slope, "speed": growth.relation.lts / t}
+    grown, flat = step.given[0].relation.gts, sp.Symbol("flat")
+    inside = step.relation.lhs.args[0].xreplace({grown: flat})
+    return {"start": inside.subs(flat, 0), "slope": sp.diff(inside, flat)}
 
 
 def _unbounded(step: Step) -> Values:
-    u, rate = step.relation.lhs.args[0], step.parents[0].relation.rhs
-    bound = next(s for s in step.frontier if isinstance(getattr(s.relation, "lts", 0), sp.Abs))
+    u, rate = step.relation.lhs.args[0], step.given[0].relation.rhs
+    bound = next(s for s in step.given if isinstance(getattr(s.relation, "lts", 0), sp.Abs))
     wear, load = symbol("u_s"), sp.Symbol("load", real=True)
-    of_data = [s for s in step.frontier if not any(p.timed for p in s.statement.premises)]
-    elsewhere = f" (with_wear (fun _ => {binder(wear)}))"
-    always = [
-        (s.relation.xreplace({u: wear}), "@" + step.cited(s).replace(s.name, s.name + elsewhere))
-        for s in of_data
-        if s.timed
-    ]
+    elsewhere = f" (with_wear (fun _ => {quantity(wear)}))"
+    always = []
+    for known in step.parents:
+        if known.timed and not any(p.timed for p in known.statement.premises):
+            proof = step.fact(known).proof.replace(known.name, known.name + elsewhere)
+            always.append((known.relation.xreplace({u: wear}), f"@{proof}"))
     flat = rate.xreplace({u: wear, bound.relation.lts.args[0]: load})
     return {"wear": wear, "load": load, "rate": flat, "bound": bound, "always": always}
 
 
-def _accumulates(step: Step) -> Values:
-    return {"limit": next(s for s in step.limits if s.relation.lhs.args[0].is_Derivative)}
-
-
 def _squeezed(step: Step) -> Values:
-    between = next(s for s in step.frontier if isinstance(s.relation, sp.And))
-    inside = step.relation.lhs.args[0]
-    above = next(part for part in between.relation.args if part.lts == inside)
-    return {"between": between, "above": above}
+    inside, between = step.relation.lhs.args[0], step.given[0].relation
+    return {"above": next(part.gts for part in between.args if part.lts == inside)}
 
 
 @dataclass(frozen=True)
@@ -180,36 +161,26 @@ def _at_infinity(step: Step) -> Values | None:
     return {"u": u, "parts": parts, "affine": next(iter(parts.values()))[1]}
 
 
-def _first_order(step: Step) -> Values | None:
-    law, deviation, ratio = step.parents[:3]
+def _first_order(step: Step) -> Values:
+    law, deviation, ratio = step.given[:3]
     quantity, end = ratio.relation.lhs.args[0], ratio.relation.rhs
     function = in_terms_of(law.relation.rhs, quantity, _RATIO)
     affine = _affine(sp.expand(_WEAR * (quantity - end) - deviation.relation.lhs.args[0]))
-    if affine is None or function.has(t):
-        return None
     slope = sp.diff(function, _RATIO).subs(_RATIO, end).doit()
     return {"of_ratio": function, "slope": slope, "affine": affine}
 
 
-def _drift(step: Step) -> Values | None:
-    inside = step.parents[0].relation.lhs.args[0]
+def _drift(step: Step) -> Values:
+    inside = step.given[0].relation.lhs.args[0]
     rate = next(d for d in inside.atoms(sp.Derivative) if d.has(AppliedUndef) and t in d.variables)
     now, load = sp.symbols("speed_now load", real=True)
     flat = inside.xreplace({rate: now, _LOAD: load})
-    affine = _affine(-flat.subs(t, 0).xreplace({load: _LOAD}))
-    if affine is None:
-        return None
-    speed = sp.expand(now - sp.diff(flat, t))
-    equations = (p for p in step.statement.premises if isinstance(p.relation, sp.Equality))
-    premises = {part: p for p in equations for part in p.relation.args}
+    known = {part: f for f in step.hypotheses if f.equates for part in f.relation.args}
     return {
-        "speed": speed,
-        "affine": affine,
-        "mean": premises[symbol("U_mean")],
-        "periodic": premises[_LOAD],
-        "smooth": next(
-            p for p in step.statement.premises if p.proposition == "continuous_in_time U_a"
-        ),
+        "speed": sp.expand(now - sp.diff(flat, t)),
+        "affine": _affine(-flat.subs(t, 0).xreplace({load: _LOAD})),
+        "mean": known[symbol("U_mean")].proof,
+        "periodic": known[_LOAD].proof,
     }
 
 
@@ -217,8 +188,8 @@ def _derivative(step: Step) -> Values:
     (slope,) = step.relation.atoms(sp.Derivative)
     used = {
         s.relation.lhs: s
-        for s in (*step.frontier, *step.hypotheses)
-        if s.equates and not s.timed and not s.relation.has(sp.Limit)
+        for s in (*step.given, *step.hypotheses)
+        if s.equates and not s.timed
         if isinstance(s.relation.lhs, sp.Symbol) and step.judgement.relation.has(s.relation.lhs)
     }
     value = sp.diff(slope.expr, *slope.variables)
@@ -234,12 +205,6 @@ def _lipschitz(step: Step) -> Values:
     return {"low": low.args[0], "high": high.args[0], "forms": forms}
 
 
-def _logarithmic_slope(step: Step) -> Values:
-    assert isinstance(step.judgement.rule, LogarithmicSlope)
-    function = step.judgement.rule.function(_RATIO)
-    return {"function": function, "derivative": sp.diff(function, _RATIO)}
-
-
 def _threshold(step: Step) -> Values | None:
     point, level = step.relation.args
     if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
@@ -247,26 +212,16 @@ def _threshold(step: Step) -> Values | None:
     return None
 
 
-def _nothing(_: Step) -> Values:
-    """Return no values: the step itself has all that its proof needs."""
-    return {}
-
-
 _VALUES: Mapping[str, Callable[[Step], Values | None]] = {
-    "Accumulates": _accumulates,
     "AtInfinity": _at_infinity,
-    "Differentiate": _nothing,
     "DataDerivative": _derivative,
     "Diverges": _diverges,
     "FirstOrder": _first_order,
     "Follows": _follows,
-    "Grows": _grows,
     "Integrate": _integrates,
     "ByParts": _by_parts,
     "Lipschitz": _lipschitz,
     "LogarithmicDrift": _drift,
-    "LogarithmicSlope": _logarithmic_slope,
-    "OnePeriodLater": _nothing,
     "Separate": _separates,
     "Threshold": _threshold,
     "Unbounded": _unbounded,
@@ -278,8 +233,9 @@ _VALUES: Mapping[str, Callable[[Step], Values | None]] = {
 def proof(step: Step) -> str:
     """Return a proof by a general theorem, empty where there is none for the step."""
     rule = "Threshold" if isinstance(step.relation, sp.Equivalent) else step.rule
-    values = _VALUES[rule](step) if rule in _VALUES else None
-    return "" if values is None else str(getattr(_macros(), rule)(step, **values))
+    macro = getattr(_macros(), rule, None)
+    values = _VALUES[rule](step) if rule in _VALUES else {}
+    return "" if macro is None or values is None else str(macro(step, **values))
 
 
 @cache
@@ -298,7 +254,7 @@ def template(name: str) -> Template:
         keep_trailing_newline=True,
         undefined=StrictUndefined,
     )
-    known = {each.__name__: each for each in (always, binder, field, proposition, term)}
+    known = {each.__name__: each for each in (always, proposition, quantity, stated, term)}
     environment.filters |= known
     environment.globals |= known | {"t": t, "RATIO": _RATIO}
     return environment.get_template(f"{name}.jinja")

@@ -78,15 +78,31 @@ def test_no_quantity_has_a_name_of_the_library():
     assert printer.name("tends") == "tends_"
 
 
+def test_what_coq_refuses_is_open_and_what_does_not_cite_it_is_closed(monkeypatch):
+    equations = (catalogue.equation("one-eighth"),)
+    made = export.Export(equations)
+    (refused,) = (step for step in made.steps if step.rule == "Threshold")
+    tried = []
+
+    def session(_, texts, proved):
+        assert not proved.isdisjoint(texts.values())
+        tried.append(set(texts))
+        return {name for name, text in texts.items() if refused.name in text}
+
+    monkeypatch.setattr(prove, "_unproved", session)
+    rows = prove.renewed(equations, record())
+    assert tried[1] == tried[0] - {refused.name}
+    assert {key for key, row in rows.items() if not row["closed"]} == {refused.key}
+    assert (
+        f"Definition open_{refused.name}"
+        in export.Export(equations, rows).files["Section_validity"]
+    )
+
+
 def test_attempts_end_where_coq_closes_nothing(monkeypatch):
-    monkeypatch.setattr(prove, "_session", lambda *_: "")
-    made = export.Export((catalogue.equation("one-eighth"),))
-    assert "Threshold" in {step.rule for step in made.steps}
-    hoped = {step.key for step in made.steps if step.rule == "Threshold"}
-    for _ in made.steps:
-        rows, hoped = prove.attempt(made, hoped)
-        made = export.Export(made.equations, rows)
-    assert not hoped
+    monkeypatch.setattr(prove, "_unproved", lambda _, texts, __: set(texts))
+    rows = prove.renewed((catalogue.equation("one-eighth"),), {})
+    assert not any(row["closed"] for row in rows.values())
 
 
 def test_a_statement_has_the_hypotheses_as_premises():
@@ -125,6 +141,23 @@ def test_nothing_is_admitted():
         text = path.read_text(encoding="utf-8")
         code = re.sub(r"\(\*.*?\*\)|\{#.*?#\}", "", text, flags=re.DOTALL)
         assert not re.search(r"\b(Admitted|admit|Axiom|Parameter|Conjecture|Abort)\b", code), path
+
+
+def test_another_file_of_the_same_name_is_replaced(tmp_path):
+    (tmp_path / "World.v").write_bytes(b"\xe9")
+    made = export.Export((catalogue.equation("7c"),))
+    made.write(tmp_path)
+    assert (tmp_path / "World.v").read_text(encoding="utf-8") == made.files["World"]
+
+
+@needs_coq
+def test_an_export_without_steps_is_compiled(deviation):
+    folder, _ = deviation
+    made = export.Export((catalogue.equation("1"),))
+    assert not made.steps
+    (folder / "Empty.v").write_text(made.files["Assumptions"], encoding="utf-8")
+    said = ended("coqc", "-q", "-Q", ".", "Wear", "Empty.v", cwd=folder).stdout
+    assert "Closed under the global context" in said
 
 
 @needs_coq

@@ -244,8 +244,9 @@ Ltac derived :=
   | repeat match goal with |- context [Derive (fun x => ?f x) ?a] =>
       progress change (Derive (fun x => f x) a) with (Derive f a) end; identity ].
 
-(** [ln x = y] from [x = exp y]. *)
-Ltac logarithm := match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp | identity] end.
+(** An equation; [ln x = y] by [x = exp y]. *)
+Ltac equal :=
+  try (match goal with |- ln ?x = ?y => replace x with (exp y); [apply ln_exp |] end); identity.
 
 (** ** What a claim rests on *)
 
@@ -273,12 +274,15 @@ Proof. intros -> H; apply Rminus_diag_uniq; rewrite H; ring. Qed.
 
 (** The goal is c times the equation F, or that equation, where others are inserted; those that
     are implicit are inserted into F, once. *)
-Ltac multiple F c :=
+Ltac multiple c F :=
   let P := fresh "P" in pose proof F as P;
   repeat match goal with E : to_insert (?x = ?e) |- _ =>
     lazymatch e with context [x] => unfold to_insert in E; try rewrite E in P; clear E end end;
   let by_factor k := apply (multiple_of k _ _ _ _ P); insert; identity in
   first [by_factor c | by_factor 1 | by_factor (-1)].
+
+(** The sides of the goal are equal where the equation F and others are inserted, or it is F. *)
+Ltac by_equation F := first [given F; insert; equal | multiple 1 F].
 
 (** ** Inequalities *)
 
@@ -360,5 +364,10 @@ Ltac limit_of_parts :=
   | |- tends (fun t => @phi ?c (@?f t)) _ => apply (passes f (@phi c));
       [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
+
+(** A known limit L, one period later. *)
+Ltac one_period_later T L :=
+  generalize (later _ _ T L); apply tends_ext; intros t _; rewrite ?derive_later; first
+  [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity].
 
 Ltac limit := eapply tends_value; [| limit_of_parts]; identity.
