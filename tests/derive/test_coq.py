@@ -79,9 +79,9 @@ def test_no_quantity_has_a_name_of_the_library():
 
 
 def test_what_coq_refuses_is_open_and_what_does_not_cite_it_is_closed(monkeypatch):
-    equations = (catalogue.equation("one-eighth"),)
+    equations = (catalogue.equation("arrest-depth"),)
     made = export.Export(equations)
-    (refused,) = (step for step in made.steps if step.rule == "Threshold")
+    (refused,) = (step for step in made.steps if step.rule == "Insert")
     tried = []
 
     def session(_, texts, proved):
@@ -94,8 +94,7 @@ def test_what_coq_refuses_is_open_and_what_does_not_cite_it_is_closed(monkeypatc
     assert tried[1] == tried[0] - {refused.name}
     assert {key for key, row in rows.items() if not row["closed"]} == {refused.key}
     assert (
-        f"Definition open_{refused.name}"
-        in export.Export(equations, rows).files["Section_validity"]
+        f"Definition open_{refused.name}" in export.Export(equations, rows).files["Section_cutoff"]
     )
 
 

@@ -122,7 +122,7 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.ten_percent_life({}),
         lambda: OPEN.bind_many(3),
         lambda: OPEN.gradients(["section4"], 3, [1]),
-        lambda: OPEN.gradients(["section4"], [K], 3),
+        lambda: OPEN.gradients(["section4"], [K], None),
         lambda: OPEN.plot(3),
         lambda: OPEN.plot({"mine": 3}),
         lambda: OPEN.posterior(3, 3),

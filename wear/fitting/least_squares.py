@@ -13,7 +13,7 @@ from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
 from wear.numerics.floating_point import TINY
-from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.gauss import FloatArray
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
 SEARCH_RANGE = 20.0  # e-folds, or multiples of a parameter's size, around the scene
@@ -21,7 +21,8 @@ GROWTHS, GROWTH_RTOL = (0.02, 1.0), 0.01  # of roughness: range and accuracy of 
 LEAST_LATE_RATE = 1e-3  # of the mean wear per cycle: least wear per cycle in the last readings
 CURVE_POINTS = 49  # of the wear of a start, to be compared with the readings
 DESCENTS = 3  # from the best starts
-ACCURACY = 1e-6  # of the variance: a descent ends where a step promises a smaller gain
+ACCURACY = 1e-3  # of the variance: accuracy of the least sum of squares
+SMALL_GAIN = 0.01  # of the variance: after a smaller gain the first failing step ends a descent
 MOST_STEPS = 60
 DAMPING, MOST_DAMPING = 1e-3, 1e8  # of a Gauss-Newton step: first, and where a descent ends
 
@@ -31,11 +32,9 @@ def descend(
     starts: FloatArray,
     box: tuple[FloatArray, FloatArray],
     say: Callable[[str], None] = lambda _: None,
-    held: IntArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Return points (m, p) of least squares near each start and their sums of squares (m,), in a
-    box given by its centre and half widths (p,). In each point the parameter with the number `held`
-    (m,) keeps its value.
+    box given by its centre and half widths (p,).
 
     Levenberg and Marquardt's method (J. Nocedal, S. J. Wright, *Numerical Optimization*, Springer
     2006, section 10.3) with a damping for every start: each round is one batch of scenes, of those
@@ -43,36 +42,31 @@ def descend(
     """
     low, high = box[0] - box[1], box[0] + box[1]
     points = np.clip(starts, low, high)
-    fixed = np.full(points.shape, False)
-    if held is not None:
-        fixed[np.arange(len(held)), held] = True
     residuals, slope = model(points)
     costs = np.sum(residuals**2, axis=1)
-    damping, active = np.full(len(points), DAMPING), np.arange(len(points))
+    damping, gain = np.tile([[DAMPING], [np.inf]], len(points))
+    active = np.arange(len(points))
     for _ in range(MOST_STEPS):
         say(f"least sum of squares: {costs.min():.6g}, searches left: {len(active)}")
-        downhill = -np.einsum("mnp,mn->mp", slope[active], residuals[active])
-        beyond = np.where(downhill < 0.0, points[active] <= low, points[active] >= high)
-        free = ~(fixed[active] | beyond)
-        downhill, J = free * downhill, free[:, None] * slope[active]
-        normal = J.mT @ J
+        J = slope[active]
+        normal = np.swapaxes(J, 1, 2) @ J
         diagonal = np.einsum("mii->mi", normal)  # a view
         diagonal += damping[active, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
-        step = np.linalg.solve(normal, downhill[..., None])[..., 0]
-        variance = costs[active] / residuals.shape[1]
-        going = np.sum(downhill * step, axis=1) > ACCURACY * variance
-        going &= damping[active] <= MOST_DAMPING
-        active, step = active[going], step[going]
-        if not len(active):
-            break
-        trial = np.clip(points[active] + step, low, high)
+        step = np.linalg.solve(normal, -np.einsum("mnp,mn->mp", J, residuals[active])[..., None])
+        trial = np.clip(points[active] + step[..., 0], low, high)
         trial_residuals, trial_slope = model(trial)
         trial_costs = np.sum(trial_residuals**2, axis=1)
         better = trial_costs < costs[active]
-        improved = active[better]
+        variance, improved = costs[active] / residuals.shape[1], active[better]
+        gain[improved] = (costs[active] - trial_costs)[better]
+        converged = np.abs(costs[active] - trial_costs) <= ACCURACY * variance
+        converged |= ~better & (gain[active] <= SMALL_GAIN * variance)
         points[improved], costs[improved] = trial[better], trial_costs[better]
         residuals[improved], slope[improved] = trial_residuals[better], trial_slope[better]
         damping[active] *= np.where(better, 0.1, 8.0)
+        active = active[~(converged | (damping[active] > MOST_DAMPING))]
+        if not len(active):
+            break
     return points, costs
 
 

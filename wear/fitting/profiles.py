@@ -1,9 +1,8 @@
 """Profile likelihoods: the range of a parameter within the data, the others being fitted to it.
 
-The parameter is moved to either side and held, while the others descend to their least sum of
-squares. The root of the deviance is nearly proportional to the distance (D. M. Bates, D. G. Watts,
-*Nonlinear Regression Analysis*, Wiley 1988, 6.1.2), so that a secant soon leads to the end of the
-interval, where it is the quantile; all ends are one batch of scenes. Parameters of single specimens
+The end of an interval is the farthest value of the parameter at which the sum of squares is at its
+limit (D. J. Venzon, S. H. Moolgavkar, Applied Statistics 37, 87, 1988). A step leads to the end in
+the linearised model; the steps of all ends are one batch of scenes. Parameters of single specimens
 are not moved beside shared ones: their intervals are those of the linearised model.
 """
 
@@ -14,17 +13,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import PARAMETER_RANGE, Estimate
+from wear.fitting.estimate import PARAMETER_RANGE, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
 from wear.numerics.floating_point import TINY
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import FloatArray, IntArray
 
+LEVELS = (0.5, 1.0)  # of the deviance's root, in quantiles, at which a profile is drawn
 END_TOLERANCE = 0.01  # of the quantile: accuracy of an end
 OPEN_END_ERROR = 0.1  # of the quantile: an end with a larger error is open
-FIRST_AIM = 0.5  # of the quantile
-FIRST_STEP = 1.0  # in e-folds, or sizes, at most; after it the distance is doubled at most
-LEAST_RISE = 1e-6  # of the root in a step
-MOST_STEPS = 25  # to an end
+FIRST_STEP, LENGTHENED, SHORTENED = 1.0, 2.0, 0.4  # bound of a step in e-folds, or sizes
+MOST_STEPS = 25  # to each of the levels
 MOST_DESCENTS = 3  # where a profile finds a better estimate
 WORTHWHILE_GAIN = 0.5  # of the variance, for another descent: less widens intervals by 6 % at most
 
@@ -44,15 +42,15 @@ def profiles(fit: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple
         zero, unbounded = np.array([0.0]), (-np.inf, np.inf)
         return fit, tuple(Profile(np.array([x]), zero, unbounded) for x in fit.estimates)
     for _ in range(MOST_DESCENTS):
-        sides = _followed(fit, say)
-        best = min((point for side in sides for point in side.points), key=lambda each: each.cost)
-        if not best.cost < fit.chi_square - WORTHWHILE_GAIN * fit.scatter**2:
+        ends = _Ends(fit)
+        for level in LEVELS:
+            ends.move_to(level * fit.quantile * fit.scatter, say)
+        if not ends.least < fit.chi_square - WORTHWHILE_GAIN * fit.scatter**2:
             break
-        theta, _ = descend(fit.model, best.theta[None], fit.box, say)
+        theta, _ = descend(fit.model, ends.best[None], fit.box, say)
         fit = Estimate(fit.model, theta[0])
-    pairs = zip(sides[::2], sides[1::2], strict=True)
-    drawn = {low.number: _profile(fit, low, high) for low, high in pairs}
-    return fit, tuple(drawn.get(i) or _linear(fit, i) for i in range(len(fit.theta)))
+    made = {number: ends.profile(2 * i) for i, number in enumerate(moved(fit))}
+    return fit, tuple(made.get(i) or _linear(fit, i) for i in range(len(fit.theta)))
 
 
 def moved(fit: Estimate) -> list[int]:
@@ -61,106 +59,125 @@ def moved(fit: Estimate) -> list[int]:
     return shared or list(range(len(fit.parameters)))
 
 
-class _Point(NamedTuple):
-    """A point `theta` (p,) of a profile, its sum of squares, the root of its deviance in standard
-    deviations, and whether some parameter is at a bound."""
+class _Ends:
+    """Both ends of the intervals of all moved parameters (k,): the number of the parameter, the
+    `side` to which it moves, the `points` (k, p) reached, and whether the data leave it `unbounded`
+    (k,); with the `best` point seen, of the `least` sum of squares."""
 
-    theta: FloatArray
-    cost: float
-    root: float
-    at_bound: bool
+    def __init__(self, fit: Estimate) -> None:
+        self.fit, self.number = fit, np.repeat(moved(fit), 2)
+        self.side = np.tile([-1.0, 1.0], len(self.number) // 2)
+        self.points = np.tile(fit.theta, (len(self.number), 1))
+        self.unbounded = np.full(len(self.number), False)
+        self.best, self.least = fit.theta, fit.chi_square
+        self.seen = [(self.points.copy(), np.zeros(len(self.number)))]
+
+    def move_to(self, level: float, say: Callable[[str], None]) -> None:
+        """Move the ends until the root of the deviance is at a `level`, in units of residuals."""
+        fit, far = self.fit, PARAMETER_RANGE * self.fit.scale
+        low, high = fit.theta - far, fit.theta + far
+        residuals, slope = fit.model(self.points)
+        longest, active = np.full(len(self.number), FIRST_STEP), np.flatnonzero(~self.unbounded)
+        slack = np.full(len(self.number), fit.quantile * fit.scatter)
+        for _ in range(MOST_STEPS):
+            if not len(active):
+                break
+            say(f"ends of intervals: {len(active)} left to be found")
+            number, before, rows = self.number[active], self.points[active], np.arange(len(active))
+            limit = np.maximum(level + slack[active], self._root(residuals[active]))
+            linear = LinearModel.of(residuals[active], slope[active] * fit.scale, number)
+            step = linear.farthest(self.side[active], fit.chi_square + level**2)
+            step *= np.minimum(1.0, longest[active] / np.max(np.abs(step), axis=1))[:, None]
+            # At a bound the whole step is shortened: clipped, it would leave the valley.
+            room = np.where(step > 0.0, high - before, before - low) / fit.scale
+            step *= np.minimum(1.0, np.min(room / (np.abs(step) + TINY), axis=1))[:, None]
+            trial = before + step * fit.scale
+            residuals_there, trial_slope = fit.model(trial)
+            bad = self._root(residuals_there) > limit
+            if bad.any():  # the valley bends: the other parameters follow
+                near = LinearModel.of(
+                    residuals_there[bad], trial_slope[bad] * fit.scale, number[bad]
+                )
+                trial[bad] = np.clip(trial[bad] + near.steps_of_others() * fit.scale, low, high)
+                residuals_there[bad], trial_slope[bad] = fit.model(trial[bad])
+            self._remember(trial, residuals_there)
+            root = self._root(residuals_there)
+            good = root <= limit
+            longest[active] *= np.where(good, LENGTHENED, SHORTENED)
+            slack[active] *= np.where(good & (root > level), SHORTENED, 1.0)
+            distance, moved_by = (np.abs(trial - x)[rows, number] for x in (fit.theta, before))
+            converged = np.abs(root - level) <= END_TOLERANCE * level
+            converged &= moved_by <= END_TOLERANCE * distance
+            accepted = active[good]
+            for whole, part in zip(
+                (self.points, residuals, slope), (trial, residuals_there, trial_slope), strict=True
+            ):
+                whole[accepted] = part[good]
+            self.unbounded[active] = good & np.any(np.abs(trial - fit.theta) > 0.999 * far, axis=1)
+            active = active[~(good & converged) & ~self.unbounded[active]]
+        root = self._root(residuals)
+        self.unbounded[active] |= np.abs(root - level)[active] > OPEN_END_ERROR * level
+        self.seen.append((self.points.copy(), root / fit.scatter))
+
+    def profile(self, end: int) -> Profile:
+        """Return the profile between an end and the next, in the unit of its parameter."""
+        fit, number, unbounded = self.fit, self.number[end], self.unbounded[end : end + 2]
+        points, roots = (np.array(each) for each in zip(*self.seen, strict=True))
+        theta = np.concatenate([points[::-1, end, number], points[1:, end + 1, number]])
+        roots = np.concatenate([roots[::-1, end], roots[1:, end + 1]])
+        values = fit.parameters[number].value(theta)
+        interval = np.where(unbounded, [-np.inf, np.inf], values[[0, -1]])
+        # Towards an open end only values below the quantile are drawn.
+        drawn = np.append(np.diff(theta) > 0.0, True) & (
+            (roots < fit.quantile) | ~np.where(theta < fit.theta[number], *unbounded)
+        )
+        return Profile(values[drawn], roots[drawn], (float(interval[0]), float(interval[1])))
+
+    def _root(self, residuals: FloatArray) -> FloatArray:
+        deviance = np.sum(residuals**2, axis=1) - self.fit.chi_square
+        return np.asarray(np.sqrt(np.maximum(deviance, 0.0)))
+
+    def _remember(self, points: FloatArray, residuals: FloatArray) -> None:
+        for point, cost in zip(points, np.sum(residuals**2, axis=1).tolist(), strict=True):
+            if cost < self.least:
+                self.best, self.least = point, cost
 
 
-class _Side:
-    """One side of the profile of the parameter with a `number`: the `points` met, the last of them
-    `below` the quantile and the last `above` it, and the change `secant` (p,) of the parameters
-    beyond the former in which the root rises by 1."""
+class LinearModel(NamedTuple):
+    """The model linearised at points (k,), one parameter of each being moved: the step `down`
+    (k, p) to the `least` sum of squares (k,), the step `along` (k, p) of all parameters as this one
+    moves by 1, and its change `width` (k,) where the sum is larger by 1."""
 
-    def __init__(self, fit: Estimate, number: int, sign: float) -> None:
-        self.fit, self.number, self.sign = fit, number, sign
-        self.below = _Point(fit.theta, fit.chi_square, 0.0, False)
-        self.above: _Point | None = None
-        self.points = [self.below]
-        covariance = fit.covariance[number]
-        self.secant = sign * covariance / np.sqrt(covariance[number])
+    down: FloatArray
+    least: FloatArray
+    along: FloatArray
+    width: FloatArray
+    number: IntArray
 
-    @property
-    def ended(self) -> bool:
-        """Return whether the last point is the end, or no point can be farther off."""
-        return self._is_end(self.points[-1], END_TOLERANCE) or self.below.at_bound
+    @classmethod
+    def of(cls, residuals: FloatArray, slope: FloatArray, number: IntArray) -> LinearModel:
+        """Return the linear model of residuals (k, n) with this `slope` (k, n, p), the parameters
+        of these numbers (k,) being moved."""
+        _, values, rows = np.linalg.svd(slope, full_matrices=False)
+        part = np.swapaxes(rows, 1, 2) / np.maximum(values, RANK_TOLERANCE * values[:, :1])[:, None]
+        covariance = part @ np.swapaxes(part, 1, 2)
+        gradient = np.einsum("knp,kn->kp", slope, residuals)
+        down = -np.einsum("kpq,kq->kp", covariance, gradient)
+        least = np.sum(residuals**2, axis=1) + np.sum(gradient * down, axis=1)
+        across = covariance[np.arange(len(number)), number]
+        own = np.take_along_axis(across, number[:, None], axis=1)
+        return cls(down, least, across / own, np.sqrt(own[:, 0]), number)
 
-    @property
-    def end(self) -> float:
-        """Return the value of theta at the end, infinite where that is open."""
-        last = self.points[-1] if self._is_end(self.points[-1], END_TOLERANCE) else self.below
-        found = self._is_end(last, OPEN_END_ERROR) and not last.at_bound
-        return float(last.theta[self.number]) if found else self.sign * np.inf
+    def farthest(self, side: FloatArray, limit: float) -> FloatArray:
+        """Return the steps (k, p) to the farthest points on a `side` (k,) with a sum of squares of
+        `limit`."""
+        distance = side * self.width * np.sqrt(np.maximum(limit - self.least, 0.0))
+        return np.asarray(self.down + distance[:, None] * self.along)
 
-    def _is_end(self, point: _Point, tolerance: float) -> bool:
-        return abs(point.root - self.fit.quantile) <= tolerance * self.fit.quantile
-
-    def next_start(self) -> FloatArray:
-        """Return the point (p,) at which the root is expected to be the quantile, or at first a
-        part of that."""
-        fit, here = self.fit, self.below
-        aim = fit.quantile if len(self.points) > 1 else FIRST_AIM * fit.quantile
-        step = (aim - here.root) * self.secant / fit.scale
-        if self.above is None:
-            longest = np.max(np.abs(here.theta - fit.theta) / fit.scale) or FIRST_STEP
-            step *= min(1.0, longest / np.max(np.abs(step)))
-        # At a bound the whole step is shortened: clipped, it would leave the valley.
-        room = PARAMETER_RANGE - np.sign(step) * (here.theta - fit.theta) / fit.scale
-        step *= min(1.0, np.min(room / (np.abs(step) + TINY)))
-        return np.asarray(here.theta + step * fit.scale)
-
-    def add(self, theta: FloatArray, cost: float) -> None:
-        """Add a point of the profile, with its sum of squares."""
-        fit, before = self.fit, self.below
-        root = np.sqrt(max(cost - fit.chi_square, 0.0)) / fit.scatter
-        at_bound = bool(np.any(np.abs(theta - fit.theta) > 0.999 * fit.box[1]))
-        point = _Point(theta, cost, float(root), at_bound)
-        self.points.append(point)
-        if root < fit.quantile:
-            self.below = point
-        else:
-            self.above = point
-        beyond, here = (point, before) if self.above is None else (self.above, self.below)
-        # A point far above the quantile is no guide: then the way to it is halved.
-        rise = min(beyond.root, 2.0 * fit.quantile) - here.root
-        self.secant = (beyond.theta - here.theta) / max(rise, LEAST_RISE)
-
-
-def _followed(fit: Estimate, say: Callable[[str], None]) -> list[_Side]:
-    """Return both sides of the profile of every moved parameter, the lower one first."""
-    sides = [_Side(fit, number, sign) for number in moved(fit) for sign in (-1.0, 1.0)]
-    for _ in range(MOST_STEPS):
-        active = [side for side in sides if not side.ended]
-        if not active:
-            break
-        say(f"ends of intervals: {len(active)} left to be found")
-        starts = np.array([side.next_start() for side in active])
-        held = np.array([side.number for side in active])
-        points, costs = descend(fit.model, starts, fit.box, held=held)
-        for side, point, cost in zip(active, points, costs.tolist(), strict=True):
-            side.add(point, cost)
-    return sides
-
-
-def _profile(fit: Estimate, low: _Side, high: _Side) -> Profile:
-    """Return the profile from both sides, in the unit of its parameter; towards an open end only
-    points below the quantile are drawn."""
-    parameter, number = fit.parameters[low.number], low.number
-    points = [
-        point
-        for side in (low, high)
-        for point in side.points
-        if point.root < fit.quantile * (1.0 + END_TOLERANCE * np.isfinite(side.end))
-    ]
-    theta, first = np.unique([point.theta[number] for point in points], return_index=True)
-    roots = np.array([point.root for point in points])[first]
-    ends = (parameter.value(np.array(side.end)) if np.isfinite(side.end) else side.end
-            for side in (low, high))  # fmt: skip
-    return Profile(parameter.value(theta), roots, (float(next(ends)), float(next(ends))))
+    def steps_of_others(self) -> FloatArray:
+        """Return the steps (k, p) to the least sum of squares with the moved parameters fixed."""
+        own = np.take_along_axis(self.down, self.number[:, None], axis=1)
+        return np.asarray(self.down - own * self.along)
 
 
 def _linear(fit: Estimate, index: int) -> Profile:
