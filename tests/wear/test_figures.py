@@ -24,6 +24,8 @@ from wear.figure_data import (
     panels_of,
     pressure_inside,
 )
+from wear.fitting.figures import profiles
+from wear.fitting.fit import fit
 from wear.load import Block, Blocks, Constant
 from wear.report import figures_of_note, schematic
 from wear.scene import load_scene
@@ -265,6 +267,15 @@ def test_a_name_with_dollars_is_no_formula():
     drawn = figures.plot({name: run, "b": run})
     figure_style.encoded(drawn, ".svg")
     assert drawn.axes[0].texts[0].get_text() == r"\$\bad{\$"
+
+
+def test_a_specimen_with_dollars_is_no_formula():
+    cycles, wear_um = [10, 1000, 10, 1000], [0.23, 2.1, 0.24, 2.2]
+    readings = {"specimen": [*"aa", *[r"$\bad{$"] * 2], "cycles": cycles, "wear_um": wear_um}
+    each, growth = "bearing.roughness_mm", "bearing.roughness_growth"
+    found = fit(readings, "section4", free=growth, free_each=each)
+    for drawn in (found.plot(), profiles(found)):
+        assert figure_style.encoded(drawn, ".svg")
 
 
 def test_sliding_distance_is_that_of_the_speed():

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.interpolate import PchipInterpolator
 
+from wear.figure_data import as_typed
 from wear.figure_style import COLUMN, COLUMN_AND_HALF, GREY, PAGE, canvas, stroke, styled
 from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile, moved
@@ -48,7 +49,7 @@ def data_and_band(fit: Fit) -> Figure:
             top.fill_between(cycles, low, high, color=look["color"], alpha=0.15, lw=0)
             top.plot(cycles, middle, **look | {"marker": ""})
             wear = specimen.wear_mm * _MICROMETRES_PER_MM
-            top.plot(specimen.cycles, wear, label=specimen.name, **drawn)
+            top.plot(specimen.cycles, wear, label=as_typed(specimen.name), **drawn)
             bottom.plot(specimen.cycles, residuals, **drawn)
         bottom.axhline(0.0, color=GREY, lw=0.6)
         top.set(xscale="log", yscale="log", ylabel=r"Bearing wear  $u_c$  ($\mathrm{\mu m}$)")
@@ -140,5 +141,5 @@ def _shown(parameter: Parameter, values: FloatArray) -> FloatArray:
 def _label(parameter: Parameter, log: bool = False) -> str:
     """Return the key of a parameter in words, with its unit."""
     _, _, name = label_of(parameter.key).partition(": ")
-    words = f"{name} {parameter.specimen}".rstrip()
+    words = f"{name} {as_typed(parameter.specimen)}".rstrip()
     return f"log10 of {words}" if log and parameter.positive else words
