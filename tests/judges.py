@@ -54,12 +54,16 @@ def problem(scene: Scene) -> Problem:
     )
 
 
+def judge_of(scene: Scene) -> type[Judge]:
+    """The judge that a scene needs."""
+    if not scene.contact.ends_at_3_sigma:
+        return Judge
+    return CutoffJudge if scene.support is None else SupportJudge
+
+
 def true_wear(scene: Scene, cycles: Sequence[int]) -> FloatArray:
     """The wear (mm) after some cycles, by the judge that the scene needs."""
-    of: type[Judge] = Judge
-    if scene.contact.ends_at_3_sigma:
-        of = CutoffJudge if scene.support is None else SupportJudge
-    found = wear_after(of(problem(scene)), cycles)
+    found = wear_after(judge_of(scene)(problem(scene)), cycles)
     return np.array([found[cycle] for cycle in cycles])
 
 

@@ -98,11 +98,6 @@ def obstacle(scene: Scene) -> str | None:
     return "the load does not repeat" if isinstance(scene.load, HistoryLoad) else None
 
 
-def is_smooth_history(scene: Scene) -> bool:
-    """Return whether the load is a measured history along which contact is not lost."""
-    return isinstance(scene.load, HistoryLoad) and not scene.contact.ends_at_3_sigma
-
-
 def checked_request(
     scene: Scene,
     cycles: float | Iterable[float],
@@ -124,10 +119,8 @@ def checked_request(
         faults.append(f"method: {method!r} is none of {', '.join(METHODS)}")
     elif method == "abel" and obstacle(scene) is not None:
         faults.append(f"method: abel is not for this scene: {obstacle(scene)}; take auto")
-    elif method == "collocation" and not is_smooth_history(scene):
-        faults.append(
-            "method: collocation is for a measured history with ends_at_3_sigma = false; take auto"
-        )
+    elif method == "collocation" and obstacle(scene) is None:
+        faults.append("method: collocation is for a measured history; take auto")
     if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
         faults.append(f"time_limit: {time_limit!r} is not a positive number of seconds")
     if max(wanted, default=0) > most_cycles(scene.load):

@@ -19,7 +19,7 @@ from wear.load import HistoryLoad
 from wear.model import Model
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
-from wear.request import checked_request, is_smooth_history, obstacle
+from wear.request import checked_request, obstacle
 from wear.resampling import resampled, unmerged
 from wear.scene import Scene, as_scene
 from wear.states import fields_at, result_notices
@@ -101,7 +101,7 @@ def _methods(
         return ((method, ""),)
     against = obstacle(scene)
     if against is not None:
-        return (("collocation" if is_smooth_history(scene) else "DOP853", against),)
+        return (("collocation", against),)
     first = ("abel", "the load repeats")
     if max(wanted) > AFFORDABLE_CYCLES or rtol < DIRECT_LIMIT:
         return (first,)

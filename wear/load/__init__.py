@@ -18,7 +18,7 @@ from pydantic import Field
 from wear.load.blocks import Block, Blocks
 from wear.load.harmonics import Harmonics, Waves, derivative
 from wear.load.periodic import Load, Smooth, cosine_and_sine
-from wear.load.piecewise_linear import ForceTable, HistoryLoad, Table
+from wear.load.piecewise_linear import ForceTable, HistoryLoad, HistoryPart, Table
 from wear.load.spans import Loading
 from wear.numerics.gauss import FloatArray
 from wear.validation import Positive, Real, table
@@ -31,6 +31,7 @@ __all__ = [
     "ForceTable",
     "Harmonics",
     "HistoryLoad",
+    "HistoryPart",
     "Load",
     "Loading",
     "Sine",

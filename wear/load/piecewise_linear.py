@@ -225,18 +225,17 @@ class HistoryLoad(_Rows):
         return inside(np.asarray(cycles) * self.period_s, self.duration)
 
 
-class HistoryCycle(Lines):
-    """One cycle of a measured history, from cycle `first`, as a function of its phase."""
+class HistoryPart(Lines):
+    """A part of a measured history, by lines between `times` (s), as a function of the phase: the
+    time since `start` over a `period`, both in s."""
 
     peaks: ClassVar[tuple[float, ...]] = ()  # all of them are kinks
 
-    def __init__(self, history: HistoryLoad, first: int) -> None:
-        start, end = history.time_at(np.minimum([first, first + 1], history.cycles)).tolist()
-        times = np.array([start, *history.breakpoints(start, end), end])
-        if start == end:  # after the last cycle: its last line
-            times = np.array(history.times_s[-2:])
-        self.period = history.period_s
-        self._abscissae, self._values = (times - start) / self.period, history(times)
+    def __init__(
+        self, history: HistoryLoad, times: FloatArray, start: float, period: float
+    ) -> None:
+        self.period = period
+        self._abscissae, self._values = (times - start) / period, history(times)
 
     def __call__(self, phase: FloatArray | float) -> FloatArray:
         return self._interpolated(np.asarray(phase))
@@ -251,6 +250,15 @@ class HistoryCycle(Lines):
     @property
     def kinks(self) -> tuple[float, ...]:
         return tuple(self._abscissae[1:-1].tolist())
+
+
+def history_cycle(history: HistoryLoad, first: int) -> HistoryPart:
+    """Return the cycle of a measured history that begins after `first` cycles."""
+    start, end = history.time_at(np.minimum([first, first + 1], history.cycles)).tolist()
+    times = np.array([start, *history.breakpoints(start, end), end])
+    if start == end:  # after the last cycle: its last line
+        times = np.array(history.times_s[-2:])
+    return HistoryPart(history, times, start, history.period_s)
 
 
 def load_from_file(form: RowsFile, folder: Path | None) -> Table | ForceTable | HistoryLoad:

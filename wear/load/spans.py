@@ -1,7 +1,7 @@
 """Every load as a sequence of periodic loads, each over a range of cycles.
 
 A load made of blocks is periodic in each block. A measured history is taken cycle by cycle, with a
-kink at every row, where an integrator stops: for smooth contact `wear.records` is much faster.
+kink at every row, where an integrator stops: `wear.records` takes many rows at once.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from wear.load.blocks import Blocks
 from wear.load.periodic import Load
-from wear.load.piecewise_linear import HistoryCycle, HistoryLoad
+from wear.load.piecewise_linear import HistoryLoad, history_cycle
 
 FOREVER = 1 << 62
 
@@ -32,7 +32,7 @@ def span(load: Loading, cycle: int) -> LoadSpan:
     """Return the load that acts from the start of a cycle (counted from 0), with its last cycle; at
     the end of blocks the last of them."""
     if isinstance(load, HistoryLoad):
-        return LoadSpan(HistoryCycle(load, cycle), cycle + 1)
+        return LoadSpan(history_cycle(load, cycle), cycle + 1)
     if not isinstance(load, Blocks):
         return LoadSpan(load, FOREVER)
     rounds, rest = divmod(min(cycle, load.cycles - 1), load.cycles_of_round)

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.load import Constant, Load, Table
+from wear.load import Load
 from wear.loss_of_contact.contact import (
     ContactMode,
     ContactPart,
@@ -35,7 +35,7 @@ from wear.loss_of_contact.contact import (
 )
 from wear.loss_of_contact.lasting import lasting_contact
 from wear.loss_of_contact.roots import displacement_at, wear_at
-from wear.loss_of_contact.switching import Cycles, Edge, Piece, cycles_of, phase_of
+from wear.loss_of_contact.switching import STRAIGHT, Cycles, Edge, Piece, cycles_of, phase_of
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray, gauss, radau
@@ -80,7 +80,7 @@ class SwitchedPeriodMap(NamedTuple):
         sound = np.full(len(wear), True)
         evaluations = 0
         few = AT_ONCE // len(self.rule.nodes)
-        straight = isinstance(self.cycles.load, (Table, Constant))
+        straight = isinstance(self.cycles.load, STRAIGHT)
         sizes = TOGETHER if straight and self.tops.shape[1] > MANY_BREAKPOINTS else ()
         for at in range(0, len(wear), few):
             some = slice(at, at + few)

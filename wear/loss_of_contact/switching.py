@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wear.load import Constant, Harmonics, Load, Sine, Table, Waves, waves
+from wear.load import Constant, Harmonics, HistoryPart, Load, Sine, Table, Waves, waves
 from wear.model import Model, stacked
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
@@ -23,6 +23,7 @@ PIECE_SAMPLES = 16  # of the load on a piece, to look up phases
 NEARLY = 1e-13  # of a part of the cycle: the distance of a sample from its ends
 PHASE_NEWTON = 60  # Newton steps to a phase; a few, unless the load turns unlike a parabola
 PHASE_PATIENCE = 3  # of them; then a step no smaller than the last is rounding
+STRAIGHT = Table, Constant, HistoryPart  # loads that are straight between their kinks
 Numbers = Any  # a float, or an array of floats
 
 
@@ -109,7 +110,7 @@ class Cycles(NamedTuple):
 
     def on(self, piece: Piece) -> Cycles:
         """Return the cycles on a piece of each: there a table is a straight line."""
-        if not isinstance(self.load, (Table, Constant, Lines)):
+        if not isinstance(self.load, (*STRAIGHT, Lines)):
             return self
         rise = (piece.heights[-1] - piece.heights[0]) / (piece.end - piece.begin)
         return self._replace(load=Lines(piece.begin, piece.heights[0], rise))
