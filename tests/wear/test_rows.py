@@ -100,6 +100,8 @@ def test_rows_may_stand_in_the_scene_itself(tmp_path):
         ({"columns": ["Zeit (ms)", "Zeit (ms)"]}, "names one column twice", "that of the values"),
         ({"time_unit": "sec"}, '"sec" is unknown', "choose one of s, ms"),
         ({"unit": "micron"}, '"micron" is unknown', "choose one of mm, um"),
+        ({"unit": "mm"}, '"Weg (µm)" is named in µm', 'unit = "µm", or rename'),
+        ({"time_unit": "s"}, '"Zeit (ms)" is named in ms', 'time_unit = "ms"'),
         ({"delimiter": ";;"}, "is not a delimiter", "one character"),
         ({"delimiter": ",", "decimal": ","}, "is the delimiter too", 'delimiter = ";"'),
         ({"encoding": "martian"}, '"martian" is unknown', "latin-1"),

@@ -256,6 +256,7 @@ HEAD = "t_s,U_a_mm\n"
         ("", "the columns are missing", "begin with t_s,U_a_mm"),
         ("t,U\n0,0\n1,0\n", "the columns are t,U", 't_s,U_a_mm, or say columns = ["t", "U"]'),
         ("0.0,0.0\n1,0\n", "the columns have no names", "put the line t_s,U_a_mm above"),
+        ("t_s,x_um\n0,0\n1,0\n", "the columns are t_s,x_um", '["t_s", "x_um"], unit = "um"'),
         ("t_s;U_a_mm\n0,0;0,0\n", "the columns are t_s;U_a_mm", "commas between the columns"),
         ("t_s\tU_a_mm\n0\t0\n", "the columns are t_s\\x09U_a_mm", "points in the numbers"),
         ("\n" + HEAD, "line 2: the number of rows below is 0", "from 2 to 1000000"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from typing import Any
 
 from pydantic import ValidationError, ValidationInfo
@@ -49,7 +50,8 @@ def load_from_table(raw: object, info: ValidationInfo, kinds: Collection[str] = 
         if issubclass(table, RowsFile) and not any(did_you_mean(key, FORMAT) for key in bad):
             sane = {key: entry for key, entry in entries.items() if key not in bad}
             try:
-                read_rows(validator.validate_python(sane, context=info.context), folder)
+                with suppress(ValidationError):  # an entry that the wrong ones would explain
+                    read_rows(validator.validate_python(sane, context=info.context), folder)
             except EntryError as bad_rows:
                 faults += bad_rows.findings
         raise EntryError(*faults) from None

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
+import unicodedata
 from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
@@ -33,7 +35,7 @@ from wear.validation import (
     words,
     wrong,
 )
-from wear.words import shown
+from wear.words import are_texts, shown
 
 MOST_BYTES = 64 * 1024 * 1024
 MOST_ROWS = 1_000_000
@@ -110,6 +112,15 @@ class RowsFile(SceneTable):
                 "is the delimiter too",
                 'give the delimiter, such as delimiter = ";"',
             )
+        columns = given.get("columns", cls.entries["columns"].default)
+        if not are_texts(columns):
+            return
+        units = {"time_unit": SECONDS, "unit": cls.units}
+        for (key, known), column in zip(units.items(), columns, strict=False):
+            unit, named = given.get(key, cls.entries[key].default), _unit_named(column, known)
+            if named and known.get(str(unit), known[named]) != known[named]:
+                problem = f'is "{unit}", but the column "{shown(column)}" is named in {named}'
+                yield (key,), problem, f'give {key} = "{named}", or rename the column'
 
 
 @table("load", kind="table")
@@ -154,6 +165,17 @@ class ForceFile(TableFile):
     unit: Annotated[str, one_of(NEWTONS)] = Field(
         default="N", description="unit of the force column"
     )
+
+
+def _unit_named(column: str, units: Mapping[str, float]) -> str:
+    """Return the unit that the name of a column ends in, '' if none.
+
+    >>> _unit_named("U_a_um", MILLIMETRES), _unit_named("Zeit [ms]", SECONDS)
+    ('um', 'ms')
+    """
+    known = {unicodedata.normalize("NFKC", unit): unit for unit in units}
+    words = re.findall(r"[^\W_]+", unicodedata.normalize("NFKC", column))
+    return known.get(words[-1], "") if len(words) > 1 else ""
 
 
 class Rows(NamedTuple):
@@ -269,6 +291,8 @@ def _header_fault(text: str, form: RowsFile) -> LineFault:
         return line, "the columns have no names", f"put the line {wanted} above the numbers"
     names = [*cells, "...", "..."][:2] if header else ["...", "..."]
     remedy = f"begin with {wanted}, or say columns = {json.dumps(names, ensure_ascii=False)}"
+    if unit := _unit_named(names[1], form.units):
+        remedy += f', unit = "{unit}"'
     if other := next((sign for sign in ";\t" if sign in header and sign != form.delimiter), ""):
         remedy = (
             f"begin with {wanted}, put commas between the columns and points in the numbers, or "
