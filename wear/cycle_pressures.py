@@ -11,6 +11,7 @@ Key results
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -18,14 +19,19 @@ from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from wear.binding import bind
+from wear.equation import WearEquation
 from wear.inside import Chunk, fields_inside
-from wear.load import HistoryLoad
+from wear.load import HistoryLoad, Load
 from wear.load.spans import span
+from wear.loss_of_contact.dense_output import switched_dense_output
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF
-from wear.numerics.gauss import FloatArray, Mesh, mesh
+from wear.numerics.gauss import FloatArray, Mesh, mesh, product
+from wear.orbit.period_map import period_map
+from wear.records import follow
 from wear.scene import Scene
 from wear.scene.notices import CONTACT_REACH
+from wear.states import fields_under_load
 
 NODES = 12  # on each interval
 INTERVALS = 32  # of a cycle, at least: pulses of a hundredth of the period are resolved
@@ -48,18 +54,16 @@ class CyclePressures(NamedTuple):
 def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePressures:
     """Return the pressures over the cycles that end after each of these numbers of cycles (n,).
 
-    They are NaN before the first cycle, and under a load that is not periodic.
+    They are NaN before the first cycle.
     """
     pressures = np.full((3, len(cycles)), np.nan)
     starts = np.unique(cycles[cycles > 0]) - 1.0
-    if isinstance(scene.load, HistoryLoad) or not len(starts):
+    if not len(starts):
         return CyclePressures(*pressures)
     model = bind(scene)
-    on = _mesh(scene)
-    phases = np.concatenate([on.edges, on.phases.ravel()])
     per_cycle = np.full((3, len(starts)), np.nan)
     rate = _wear_rate_per_pressure(model, scene)
-    for part in fields_inside(model, scene.load, starts, phases, rtol):
+    for part, on in _sampled_cycles(model, scene, starts, rtol):
         rows = np.searchsorted(starts, part.cycles)
         periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
         per_cycle[:, rows] = _pressures(part, on, rate * periods, scene.given_load)
@@ -67,9 +71,48 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
     return CyclePressures(*pressures)
 
 
-def _mesh(scene: Scene) -> Mesh:
-    """Return the intervals of a cycle, on which every load of the scene is smooth."""
-    loads = scene.loads.values()
+def _sampled_cycles(
+    model: Model, scene: Scene, starts: FloatArray, rtol: float
+) -> Iterator[tuple[Chunk, Mesh]]:
+    """Yield the state at the edges and then at the nodes of a mesh of the cycles that begin after
+    `starts` (n,) cycles."""
+    load = scene.load
+    if not isinstance(load, HistoryLoad):
+        on = _mesh(scene.loads.values())
+        for part in fields_inside(model, load, starts, _phases(on), rtol):
+            yield part, on
+        return
+    reached = follow(model, load, starts.astype(int).tolist(), rtol)
+    for start, wear, error in zip(reached.cycles, reached.u, reached.error, strict=True):
+        cycle = span(load, start).load
+        on = _mesh([cycle])
+        phases = _phases(on)
+        u = wear + _added(model, cycle, wear, on, rtol)
+        fields = fields_under_load(model, u, cycle(phases), cycle.slope(phases) / cycle.period)
+        of_cycle = np.array([start], dtype=float), phases, u, fields, np.array([error])
+        yield Chunk(*of_cycle), on
+
+
+def _added(model: Model, cycle: Load, wear: float, on: Mesh, rtol: float) -> FloatArray:
+    """Return the wear (1, m), mm, that a cycle of a measured history adds to `wear` (mm) up to the
+    edges and then the nodes of a mesh."""
+    start = np.array([[wear]])
+    if model.ends_at_3_sigma:
+        output = switched_dense_output(model, cycle, _phases(on), rtol)
+        return output.added(np.zeros(1), start[0]).increment
+    maps = period_map(WearEquation(model, (cycle,)), on.edges[None], len(on.rule.nodes))
+    run = maps.advance(start)
+    ends = np.cumsum(product(run.rate, on.rule.weights) * on.lengths, axis=-1)[:, 0]
+    return np.concatenate([np.zeros((1, 1)), ends, run.inside.reshape(1, -1)], axis=1)
+
+
+def _phases(on: Mesh) -> FloatArray:
+    """Return the edges and then the nodes of a mesh."""
+    return np.concatenate([on.edges, on.phases.ravel()])
+
+
+def _mesh(loads: Collection[Load]) -> Mesh:
+    """Return the intervals of a cycle, on which all loads are smooth."""
     marks = {0.0, 1.0, *(x for load in loads for x in (*load.kinks, *load.peaks))}
     edges = np.unique(np.concatenate([sorted(marks), np.arange(INTERVALS) / INTERVALS]))
     keep = np.append(np.diff(edges) > SAME, True)

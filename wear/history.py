@@ -115,7 +115,7 @@ class History:
         """Return peak, mean and contact fraction of the cycle that ends after each of the `cycles`.
 
         They are computed at the first use, and NaN where they are unknown: before the first cycle,
-        under a load that is not periodic, and for a run that was stopped.
+        and for a run that was stopped.
         """
         unknown = CyclePressures(*np.full((3, len(self.cycles)), np.nan))
         if self.stopped:

@@ -104,14 +104,30 @@ def test_each_block_has_its_own_cycles() -> None:
     assert found.peak[1] > 3.0 * found.peak[0]
 
 
-def test_there_is_no_cycle_before_the_first_nor_without_period() -> None:
+@pytest.mark.parametrize(
+    "changes", [{}, {"k": 1e5, "pin": True}, {"cutoff": True}, {"k": 1e5, "cutoff": True}]
+)
+def test_a_history_of_equal_cycles_is_a_table(changes: dict[str, Any]) -> None:
+    scene, number = made(1e-5, load=SAW, **changes), 3
+    times = np.concatenate(
+        [[0.0], *(SAW.period * k + np.array(SAW.times_s[1:]) for k in range(number))]
+    )
+    values = (SAW.values_mm[0], *(SAW.values_mm[1:] * number))
+    record = HistoryLoad(tuple(times.tolist()), values, SAW.period)
+    found, want = (
+        cycle_pressures(each, np.array([0.0, 1.0, 3.0]), 1e-10)
+        for each in (replace(scene, load=record), scene)
+    )
+    assert np.isnan(found.peak[0])
+    assert want.mean[2] != want.mean[1]
+    for one, other in zip(found, want, strict=True):
+        assert_allclose(one[1:], other[1:], rtol=1e-9)
+
+
+def test_there_is_no_cycle_before_the_first() -> None:
     history = solve("section4", [0, 1])
     assert np.isnan(history.pressures.peak).tolist() == [True, False]
     assert history.as_json()["peak_pressure_MPa"] == [None, pytest.approx(243.2804655519, rel=1e-9)]
-    record = HistoryLoad((0.0, 0.03, 0.06), (0.0, 5e-4, 0.0), 0.06)
-    assert np.isnan(
-        cycle_pressures(replace(SCENES["section4"], load=record), np.ones(1), 1e-8)
-    ).all()
 
 
 def test_reactions_follow_the_pressures() -> None:
