@@ -127,10 +127,10 @@ class Scene(SceneTable):
         """Return the load if it is periodic; otherwise raise a `UsageError`."""
         if isinstance(self.load, Blocks | HistoryLoad):
             kind = as_table(self.load)["kind"]
-            part = "one of them" if kind == "blocks" else 'one period, kind = "table", repeat = true'
+            record = 'one period, kind = "table", repeat = true'
             raise UsageError(
                 f'{self.name}: a load of kind "{kind}" does not repeat; this needs one that does: '
-                f"take {part}"
+                f"take {'one of them' if kind == 'blocks' else record}"
             )
         return self.load
 
