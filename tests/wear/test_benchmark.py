@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,7 +13,7 @@ import pytest
 
 from tests.programs import python
 from tests.wear.reference_scenes import REFERENCE
-from wear import benchmark, cli
+from wear import benchmark
 from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
 from wear.benchmark.methods import (
@@ -299,15 +300,12 @@ def test_the_figure_over_cycles_shows_what_was_expected(result):
 
 
 @pytest.fixture
-def wear(capsys, monkeypatch):
+def wear(call, monkeypatch):
     """Run `wear bench` with the least effort; give status and results."""
     monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     monkeypatch.setattr(benchmark, "QUICK", Effort(cap=0.0, repeated=1.0, rounds=1, rest=0.5))
 
-    def call(*arguments: str) -> tuple[int, str, str]:
-        return cli.main(["bench", *arguments]), *capsys.readouterr()
-
-    return call
+    return partial(call, "bench")
 
 
 def test_the_command_prints_its_results_and_writes_its_files(wear, monkeypatch, tmp_path):
