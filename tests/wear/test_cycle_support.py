@@ -64,7 +64,7 @@ def test_the_judge_has_two_ways_that_agree():
 
     class Stepping(SupportJudge):
         def linear(self, phase: object, end: object) -> object:
-            return self.stepped(self.held_series, phase, end)  # type: ignore[arg-type]
+            return self.stepped(self.held_series, self.passed, phase, end)  # type: ignore[arg-type]
 
     data = problem(supported(1e-4, 0.1, False, 1e6, WAVES))
     judges = SupportJudge(data), Stepping(data)
