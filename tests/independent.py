@@ -111,26 +111,17 @@ class Judge:
 
     def series(self, phase: mpmath.mpf) -> tuple[list[int], int]:
         """Taylor coefficients of the wear in phase, from the present wear; the slope of z."""
-        load = self.displacement(phase)
-        u, one, two, square, s = [self.wear], [], [], [], []
-        w: list[int] = []
-        z: list[int] = []
-        q: list[int] = []
-        g: list[int] = []
+        load, u = self.displacement(phase), [self.wear]
+        one, two, s, w, z, q, g = ([] for _ in range(7))
         for k in range(ORDER):
-            for part, (start, slope) in ((one, self.one), (two, self.two)):
-                part.append((start if k == 0 else 0) + (slope * u[k] >> BITS))
-            square.append(times(one, one, k) + times(two, two, k))
+            self.roughen(u, one, two, s)
             closure = (self.closure if k == 0 else 0) + (self.gap * u[k] >> BITS) - load[k]
             if k == 0:
-                s.append(int(mpmath.floor(mpmath.sqrt(mpmath.mpf(square[0]) * ONE))))
                 z0, q0 = self.start(closure, s[0])
                 z.append(z0)
                 w.append((self.level * ONE - z0) // self.steep)
                 q.append(q0)
             else:
-                cross = sum(s[i] * s[k - i] for i in range(1, k)) >> BITS
-                s.append(((square[k] - cross) << (BITS - 1)) // s[0])
                 rest = sum(j * z[j] * g[k - j] for j in range(1, k)) // k >> BITS
                 known = closure + (self.deflection * rest >> BITS)
                 known -= sum(s[j] * w[k - j] for j in range(1, k + 1)) >> BITS
@@ -141,6 +132,18 @@ class Judge:
             g.append(q[k] - (0 if self.data.exponential else times(q, q, k)))
             u.append((self.drive * q[k] >> BITS) // (k + 1))
         return u, abs(z[1])
+
+    def roughen(self, u: list[int], one: list[int], two: list[int], s: list[int]) -> None:
+        """Append the next coefficients of both roughnesses and of the equivalent one."""
+        k = len(s)
+        for part, (start, slope) in ((one, self.one), (two, self.two)):
+            part.append((start if k == 0 else 0) + (slope * u[k] >> BITS))
+        square = times(one, one, k) + times(two, two, k)
+        if k == 0:
+            s.append(int(mpmath.floor(mpmath.sqrt(mpmath.mpf(square) * ONE))))
+        else:
+            cross = sum(s[i] * s[k - i] for i in range(1, k)) >> BITS
+            s.append(((square - cross) << (BITS - 1)) // s[0])
 
     def start(self, closure: int, s: int) -> tuple[int, int]:
         """z and p/p_max: closed when rigid, else one monotone root."""

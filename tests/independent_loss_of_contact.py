@@ -22,6 +22,8 @@ LONGEST = mpf(1) / 32  # step
 BLUR = mpf(2) ** (40 - BITS)
 
 Real = Callable[[mpf], mpf]
+Series = Callable[[mpf], tuple[list[int], int]]
+Change = Callable[[list[int], mpf, mpf], mpf | None]
 
 
 class CutoffJudge(Judge):
@@ -30,8 +32,8 @@ class CutoffJudge(Judge):
     def __init__(self, problem: Problem) -> None:
         super().__init__(problem)
         with mpmath.workprec(BITS + 60):
-            share = mpmath.exp(-3) if problem.exponential else 1 / (1 + mpmath.exp(4))
-            self.edge_rate = mpf(self.drive) / ONE * share
+            self.share = mpmath.exp(-3) if problem.exponential else 1 / (1 + mpmath.exp(4))
+            self.edge_rate = mpf(self.drive) / ONE * self.share
             looks = [mpf(k) / SAMPLES for k in range(SAMPLES)]
             # A line of a table may be shorter than what lies between two samples.
             looks += [(before + after) / 2 for (before, _), (after, _) in pairwise(self.kinks)]
@@ -128,16 +130,20 @@ class CutoffJudge(Judge):
 
     def closed(self, phase: mpf, end: mpf) -> mpf:
         """Integrate in contact to `end`, or to where contact is lost; return that phase."""
+        return self.stepped(self.series, self.lost, phase, end)
+
+    def stepped(self, series: Series, change: Change, phase: mpf, end: mpf) -> mpf:
+        """Integrate a Taylor series to `end`, or to the first change of mode; return that phase."""
         while phase < end:
             step = min(LONGEST, end - phase)
-            u, slope = self.series(phase)
+            u, slope = series(phase)
             scale = self.wear + (abs(u[1]) >> 4)
             while not self.fine(u, slope, scale, step):
                 step /= 2
-            lost = self.lost(u, phase, step)
-            self.wear = int(mpmath.nint(evaluate(u, step if lost is None else lost)))
-            if lost is not None:
-                return phase + lost
+            found = change(u, phase, step)
+            self.wear = int(mpmath.nint(evaluate(u, step if found is None else found)))
+            if found is not None:
+                return phase + found
             phase = phase + step if step < end - phase else end
         return end
 

@@ -9,14 +9,13 @@ it is a linear equation, u' = a (U_a + b - c u): its solution is written down, w
 stiffness.
 """
 
-from collections.abc import Callable
 from itertools import pairwise
 
 import mpmath
 from mpmath import mpf
 
-from tests.independent import BITS, ONE, ORDER, Problem, times
-from tests.independent_loss_of_contact import BLUR, LONGEST, CutoffJudge, Real, evaluate, zero
+from tests.independent import BITS, ONE, ORDER, Problem
+from tests.independent_loss_of_contact import BLUR, CutoffJudge, Real, evaluate, zero
 
 LOOKS = 8  # at each step of a series
 SAMPLES = 128  # of the closed form, evenly spread
@@ -31,8 +30,7 @@ class SupportJudge(CutoffJudge):
         super().__init__(problem)
         with mpmath.workprec(BITS + 60):
             deflection = mpf(self.deflection) / ONE
-            share = mpmath.exp(-3) if problem.exponential else 1 / (1 + mpmath.exp(4))
-            self.level_of_law = deflection * share
+            self.level_of_law = deflection * self.share
             self.stiff = mpf(self.drive) / ONE / deflection
         self.mode = "law"
 
@@ -62,9 +60,9 @@ class SupportJudge(CutoffJudge):
             self.mode = "held"
             return zero(lambda at: self.load(at) + reach, phase, end)
         if self.mode == "law":
-            return self.stepped(self.series, phase, end)
+            return self.stepped(self.series, self.passed, phase, end)
         if self.data.pin_roughness or self.two[1]:
-            return self.stepped(self.held_series, phase, end)
+            return self.stepped(self.held_series, self.passed, phase, end)
         return self.linear(phase, end)
 
     def change(self, margin: Real, looks: list[mpf]) -> mpf | None:
@@ -83,21 +81,6 @@ class SupportJudge(CutoffJudge):
                 return zero(margin, before, after)
         return None
 
-    def stepped(self, series: Callable[[mpf], tuple[list[int], int]], phase: mpf, end: mpf) -> mpf:
-        """Integrate by Taylor series in the present mode."""
-        while phase < end:
-            step = min(LONGEST, end - phase)
-            u, slope = series(phase)
-            scale = self.wear + (abs(u[1]) >> 4)
-            while not self.fine(u, slope, scale, step):
-                step /= 2
-            found = self.passed(u, phase, step)
-            self.wear = int(mpmath.nint(evaluate(u, step if found is None else found)))
-            if found is not None:
-                return phase + found
-            phase = phase + step if step < end - phase else end
-        return end
-
     def passed(self, u: list[int], phase: mpf, step: mpf) -> mpf | None:
         """The part of a step after which the mode changes, None if it does not."""
 
@@ -115,14 +98,7 @@ class SupportJudge(CutoffJudge):
         load, rate = self.displacement(phase), int(mpmath.nint(self.stiff * ONE))
         u, one, two, s = [self.wear], [], [], []
         for k in range(ORDER):
-            for part, (start, slope) in ((one, self.one), (two, self.two)):
-                part.append((start if k == 0 else 0) + (slope * u[k] >> BITS))
-            square = times(one, one, k) + times(two, two, k)
-            if k == 0:
-                s.append(int(mpmath.floor(mpmath.sqrt(mpf(square) * ONE))))
-            else:
-                cross = sum(s[i] * s[k - i] for i in range(1, k)) >> BITS
-                s.append(((square - cross) << (BITS - 1)) // s[0])
+            self.roughen(u, one, two, s)
             margin = load[k] + 3 * s[k] - (self.gap * u[k] >> BITS)
             margin -= self.closure if k == 0 else 0
             u.append((rate * margin >> BITS) // (k + 1))

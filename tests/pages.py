@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import derive.cli
 import wear.cli
-from tests.programs import ended
+from tests.programs import ended, status_of
 
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 _SET_UP = re.compile(
@@ -87,18 +87,12 @@ def in_process(line: str) -> tuple[str, int]:
     """Run a command line; `wear` and `derive` in this process, anything else by the shell."""
     line, _, output = line.partition(" > ")
     program, *arguments = shlex.split(line)
-    mains: dict[str, Callable[[list[str]], int]] = {
-        "derive": derive.cli.main,
-        "wear": wear.cli.main,
-    }
+    mains = {"derive": derive.cli.main, "wear": wear.cli.main}
     if program not in mains or _SHELL.search(line):
         return by_shell(f"{line} > {output}" if output else line)
     printed, told = io.StringIO(), io.StringIO()
     with redirect_stdout(printed), redirect_stderr(told):
-        try:
-            status = mains[program](arguments)
-        except SystemExit as stop:
-            status = int(stop.code or 0)
+        status = status_of(mains[program], arguments)
     if output:
         Path(output).write_text(printed.getvalue(), encoding="utf-8")
         return "", status

@@ -3,6 +3,7 @@
 import importlib.util
 import subprocess
 import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -23,6 +24,14 @@ def run(*command: Any, **options: Any) -> str:
 def python(code: str, **options: Any) -> str:
     """Run Python code in a fresh interpreter and return what it prints."""
     return run(sys.executable, "-c", code, **options)
+
+
+def status_of(main: Callable[[Sequence[str]], int], arguments: Sequence[str]) -> int:
+    """Run a command in this process and return its status."""
+    try:
+        return main(arguments)
+    except SystemExit as stop:  # argparse's way of ending
+        return int(stop.code or 0)
 
 
 def module(path: Path) -> ModuleType:

@@ -84,7 +84,7 @@ import sys
 sys.modules.update(dict.fromkeys(("matplotlib", "math_core", "markdown_it")))
 from wear.cli import main
 assert main(["run", "section4", "--cycles", "1"]) == 0
-for arguments in (["report", "section4"], ["reproduce"]):
+for arguments in (["report", "section4"], ["figure", "section4", "-o", "wear.svg"]):
     try:
         main(arguments)
     except SystemExit as stop:

@@ -33,7 +33,7 @@ RUN = (
     "exponential/compliant_worn",
 )
 every_run = pytest.mark.parametrize("name", RUN)
-COUNT = 60
+COUNT = 30
 
 
 # What is refused

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
+from tests.programs import status_of
 from wear import cli
 
 collect_ignore = ["typed_script.py"]  # a user's script, run in a folder of its own
@@ -16,10 +17,6 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
     """`call("run", "section4")` runs a command; returns its status, output and messages."""
 
     def run(*arguments: str) -> tuple[int, str, str]:
-        try:
-            status = cli.main(arguments)
-        except SystemExit as stop:  # argparse's way of ending
-            status = stop.code
-        return status, *capsys.readouterr()
+        return status_of(cli.main, arguments), *capsys.readouterr()
 
     return run

@@ -11,7 +11,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from wear.load import Constant, Load, Sine
+import numpy as np
+
+from wear.load import Constant, Load, Sine, Table
+from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
 
@@ -21,7 +24,21 @@ REFERENCE: dict[str, dict[int, float]] = {
         "u_c_mm"
     ].items()
 }
-SINE, CONSTANT = Sine(5e-4, 0.06), Constant(5e-4, 0.06)
+
+
+def sine(amplitude_mm: float) -> Sine:
+    """Return a load of the note's period."""
+    return Sine(amplitude_mm, 0.06)
+
+
+def constant(value_mm: float) -> Constant:
+    """Return a load of the note's period."""
+    return Constant(value_mm, 0.06)
+
+
+SINE, CONSTANT = sine(5e-4), constant(5e-4)
+SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
+"""A load with a kink at its peak."""
 
 
 def made(
@@ -73,7 +90,13 @@ _CHANGES: dict[str, dict[str, Any]] = {
 }
 
 
+def reference_wear(name: str) -> tuple[FloatArray, FloatArray]:
+    """Return the numbers of cycles for which the wear (mm) of a scene is known, and that wear."""
+    cycles, wear = zip(*sorted(REFERENCE[name].items()), strict=True)
+    return np.array(cycles, dtype=float), np.array(wear)
+
+
 @cache
 def reference_scene(name: str) -> Scene:
-    """The scene of that name."""
+    """Return the scene of that name."""
     return replace(made(**_CHANGES[name]), name=name)

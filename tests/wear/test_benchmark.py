@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,7 +13,7 @@ import pytest
 
 from tests.programs import python
 from tests.wear.reference_scenes import REFERENCE
-from wear import benchmark, cli
+from wear import benchmark
 from wear.benchmark import Effort, Status, judge, results
 from wear.benchmark.machine import footer, machine, missing
 from wear.benchmark.methods import (
@@ -299,32 +300,18 @@ def test_the_figure_over_cycles_shows_what_was_expected(result):
 
 
 @pytest.fixture
-def wear(capsys, monkeypatch):
+def wear(call, monkeypatch):
     """Run `wear bench` with the least effort; give status and results."""
     monkeypatch.setattr("wear.benchmark.methods.CYCLES", (1, 9000))
     monkeypatch.setattr(benchmark, "QUICK", Effort(cap=0.0, repeated=1.0, rounds=1, rest=0.5))
 
-    def call(*arguments: str) -> tuple[int, str, str]:
-        return cli.main(["bench", *arguments]), *capsys.readouterr()
-
-    return call
+    return partial(call, "bench")
 
 
-def test_the_command_gives_one_json_document(wear):
-    status, shown, _ = wear("--quick", "--json")
-    told = json.loads(shown)
-    assert status == 0
-    assert {run["method"] for run in told["measurements"]} == {made.name for made in OWN}
-    assert len(told["sentences"]) == 2
-    assert told["machine"]["cores"] >= 1
-    counted = [run for run in told["measurements"] if run["method"] == "abel"]
-    assert all(abs(run["error"]) <= run["tolerance"] for run in counted)
-
-
-def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
+def test_the_command_prints_its_results_and_writes_its_files(wear, monkeypatch, tmp_path):
     """With one of the methods that `--peers` adds, all of which are tried above."""
-    one = SimpleNamespace(JUMPS=jumps.JUMPS[:1])
-    added = {"jumps": one, "peers": SimpleNamespace(PEERS=())}
+    one = jumps.JUMPS[:1]
+    added = {"jumps": SimpleNamespace(JUMPS=one), "peers": SimpleNamespace(PEERS=())}
     monkeypatch.setattr(bench, "load_peers", added.get)
     folder = tmp_path / "new"
     status, shown, _ = wear("--quick", "--peers", "-o", str(folder))
@@ -332,7 +319,12 @@ def test_the_command_writes_its_files(wear, monkeypatch, tmp_path):
     assert "use abel" in shown
     expected = {"speed.csv", "speed-start.csv", "speed.md", "speed.json"}
     assert expected <= {file.name for file in folder.iterdir()}
-    assert json.loads((folder / "speed.json").read_text())["measurements"]
+    told = json.loads((folder / "speed.json").read_text())
+    assert {run["method"] for run in told["measurements"]} == {m.name for m in (*OWN, *one)}
+    assert len(told["sentences"]) == 2
+    assert told["machine"]["cores"] >= 1
+    counted = [run for run in told["measurements"] if run["method"] == "abel"]
+    assert all(abs(run["error"]) <= run["tolerance"] for run in counted)
 
 
 def test_a_place_that_cannot_be_written_is_told_before_the_work(wear, tmp_path):

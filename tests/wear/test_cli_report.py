@@ -12,7 +12,6 @@ from derive.symbols import symbol
 from derive.variant import VARIANTS
 from derive.variant_equations import equations_of
 from wear import solve
-from wear.cli import main
 from wear.load import Block, Blocks, Sine
 from wear.report import publish, scene_report
 from wear.report.document import FigureFiles
@@ -29,15 +28,16 @@ def undrawn(monkeypatch):
     )
 
 
-def test_the_files_and_what_they_say(tmp_path, capsys, monkeypatch):
+def test_the_files_and_what_they_say(tmp_path, call, monkeypatch):
     monkeypatch.setattr(publish.shutil, "which", lambda _: None)
     scene = tmp_path / "mine.toml"
     text = load_scene("section4-cutoff").to_toml()
     scene.write_text(re.sub(r'title = ".*"', 'title = "A *bearing* of mine, 50 %"', text))
     folder = tmp_path / "out"
-    assert main(["report", str(scene), "-o", str(folder), "--json"]) == 0
-    shown = json.loads(capsys.readouterr().out)
-    assert {"report.html", "report.tex", "equations.tex", "history.svg"} <= set(shown["files"])
+    status, shown, _ = call("report", str(scene), "-o", str(folder), "--json")
+    assert status == 0
+    files = set(json.loads(shown)["files"])
+    assert {"report.html", "report.tex", "equations.tex", "history.svg"} <= files
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert "A *bearing* of mine, 50 %" in page
     assert "<em>arrest</em>" in page
@@ -120,7 +120,7 @@ repeat = true
 """
 
 
-def test_an_engineers_way_from_a_record_and_readings_to_a_report(tmp_path, capsys, monkeypatch):
+def test_an_engineers_way_from_a_record_and_readings_to_a_report(tmp_path, call, monkeypatch):
     """401 noisy rows as LabVIEW writes them, fifteen readings; and the report."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(publish.shutil, "which", lambda _: None)
@@ -136,13 +136,12 @@ def test_an_engineers_way_from_a_record_and_readings_to_a_report(tmp_path, capsy
     measured = [1.1 * wear * 1e3 for wear in solve("mine.toml", cycles.tolist(), rtol=1e-6).u_c]
     readings = [f"{n},{wear:.4f}" for n, wear in zip(cycles, measured, strict=True)]
     Path("readings.csv").write_text("\n".join(["cycles,wear_um", *readings]), encoding="utf-8")
-    assert main(["report", "mine.toml", "--data", "readings.csv"]) == 0
+    assert call("report", "mine.toml", "--data", "readings.csv")[0] == 0
     page = Path("mine-report/report.html").read_text(encoding="utf-8")
     assert "wear report mine.toml --data readings.csv" in page
     assert "402 rows with the seam" in re.sub("<[^>]*>", "", page)
     assert re.search(r"The measured wear is <data[^>]*>1.10</data> times the predicted", page)
     assert Path("mine-report/readings.svg").exists()
-    capsys.readouterr()
     Path("readings.csv").write_text("cycles,wear_um\n0,many\n", encoding="utf-8")
-    assert main(["report", "mine.toml", "--data", "readings.csv"]) == 2
-    assert "--data: readings.csv" in capsys.readouterr().err
+    status, _, messages = call("report", "mine.toml", "--data", "readings.csv")
+    assert (status, "--data: readings.csv" in messages) == (2, True)

@@ -12,19 +12,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.judges import honest, static_wear, true_wear
-from tests.wear.reference_scenes import REFERENCE, made, reference_scene
+from tests.wear.reference_scenes import (
+    REFERENCE,
+    constant,
+    made,
+    reference_scene,
+    reference_wear,
+    sine,
+)
 from tests.wear.test_cycle_count import between, counted, scenes
 from wear.faults import AccuracyError
-from wear.load import Constant, Harmonics, Sine, Table
+from wear.load import Harmonics, Table
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene, load_scene
 from wear.solver import solve
 
 TO_THE_END = np.array([1.0, 30.0, 1e3, 1e6, 1e12])
-
-
-def constant(value_mm: float) -> Constant:
-    return Constant(value_mm, 0.06)
 
 
 ONCE_WRONG = {
@@ -40,7 +43,7 @@ ONCE_WRONG = {
     ),
     # the density changes by e^2 within a cycle
     "dense": made(
-        2.88e-4, -0.2988, Sine(2.08e-5, 0.06), roughness=6.545e-4, closure=9.676e-4,
+        2.88e-4, -0.2988, sine(2.08e-5), roughness=6.545e-4, closure=9.676e-4,
         law="exponential",
     ),
     # small differences early in a cycle told no slope
@@ -146,7 +149,7 @@ def test_wear_that_takes_off_is_counted_at_any_tolerance():
 def test_beyond_what_was_counted_nothing_is_told():
     """No time for panels: the cycles that were integrated are known, no other."""
     late = counted(
-        made(load=Sine(5e-3, 0.06)), np.array([1.0, 5.0, 1e9]), 1e-12, deadline=time.monotonic()
+        made(load=sine(5e-3)), np.array([1.0, 5.0, 1e9]), 1e-12, deadline=time.monotonic()
     )
     assert np.all(late.error[:2] <= 1e-12)
     assert late.error[2] == np.inf
@@ -177,8 +180,7 @@ def test_the_estimate_is_within_a_factor_of_a_thousand_nine_times_of_ten():
     the result, count as that: how much smaller they are is chance."""
     ratios: list[FloatArray] = []
     for name in REFERENCE:
-        cycles = np.array(sorted(REFERENCE[name]), dtype=float)
-        want = np.array([REFERENCE[name][int(n)] for n in cycles])
+        cycles, want = reference_wear(name)
         for rtol in 10.0 ** -np.arange(6, 14):
             found = counted(reference_scene(name), cycles, float(rtol))
             ratios.append(found.error / np.maximum(np.abs(found.u_c / want - 1), 1e-15))

@@ -9,23 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.judges import honest
-from tests.wear.reference_scenes import made
+from tests.wear.reference_scenes import constant, made, sine
 from tests.wear.test_cycle_count import counted
 from wear.binding import bind
 from wear.cycles import first_passage, sweep, wear_after
-from wear.load import Block, Blocks, Constant, Harmonics, Sine
+from wear.load import Block, Blocks, Constant, Harmonics
 from wear.numerics.gauss import FloatArray
 from wear.scene import Scene
 
 CYCLES = np.array([1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 100, 200, 500, 1e3, 3e3, 1e4, 1e5, 1e8, 1e12])
-
-
-def constant(value_mm: float) -> Constant:
-    return Constant(value_mm, 0.06)
-
-
-def sine(amplitude_mm: float) -> Sine:
-    return Sine(amplitude_mm, 0.06)
 
 
 def keeps_its_word(of: Scene, rtol: float) -> None:
@@ -113,7 +105,7 @@ def test_a_wear_that_may_never_be_reached_has_no_certain_count():
     assert np.isinf(lives_hold(SHORT, load, np.array([1e3, 38000]), 1e-2)).tolist() == [False, True]
 
 
-@settings(max_examples=24)
+@settings(max_examples=12)
 @given(
     K=st.floats(-9.0, -5.5),
     f_c=st.floats(0.55, 1.05),

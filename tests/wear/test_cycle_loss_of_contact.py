@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from tests.judges import honest, true_wear
-from tests.wear.reference_scenes import SINE, made, reference_scene
+from tests.wear.reference_scenes import SHARP, SINE, made, reference_scene
 from tests.wear.test_cycle_count import between
 from wear import cycles as count
 from wear.binding import bind
@@ -175,10 +175,9 @@ def test_the_last_cycles_before_arrest_are_known_as_well_as_rounding_permits():
 )
 def test_at_a_sharp_peak_wear_fades(K, f_c, cycles):
     """Each cycle takes the same part of the distance that is left: no cycle is the last."""
-    load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
-    scene = with_load(load, K, f_c)
+    scene = with_load(SHARP, K, f_c)
     agrees_with_the_judge(scene, cycles, 1e-12)
-    last = count.wear_after(bind(scene), load, np.array([1e12]), 1e-12)
+    last = count.wear_after(bind(scene), SHARP, np.array([1e12]), 1e-12)
     assert last.notices[0].startswith("wear approaches its limit; within rounding from cycle")
     assert last.cost.cycles_integrated <= 1000
     # B(u) = (1 - 3 f) u + h_0 - 3 sigma_0 has come to the peak.
@@ -203,11 +202,10 @@ def test_the_edge_of_contact_turns_twice_between_two_samples():
 
 
 def test_cycles_until_a_wear_that_fades():
-    load = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
-    model = bind(with_load(load, 3e-6, 0.1))
-    wear = count.wear_after(model, load, np.array([30.0, 60.0, 90.0]), 1e-11).u_c
-    rest = count.wear_after(model, load, np.array([1e6]), 1e-11).u_c
-    found = count.first_passage(model, load, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
+    model = bind(with_load(SHARP, 3e-6, 0.1))
+    wear = count.wear_after(model, SHARP, np.array([30.0, 60.0, 90.0]), 1e-11).u_c
+    rest = count.wear_after(model, SHARP, np.array([1e6]), 1e-11).u_c
+    found = count.first_passage(model, SHARP, np.array([*(wear - 1e-16), *(rest * 1.01)]), 1e-11)
     assert found.cycles.tolist() == [30.0, 60.0, 90.0, np.inf]
 
 
@@ -224,7 +222,7 @@ def supported(K: float, f_c: float, pin: bool, k: float, load: Load = SINE) -> S
     return made(K, f_c, load, pin=pin, k=k, cutoff=True)
 
 
-@pytest.mark.parametrize("load", [SINE, Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))])
+@pytest.mark.parametrize("load", [SINE, SHARP])
 def test_on_a_compliant_support_wear_fades(load):
     """The pressure vanishes with the distance that is left: as d^(3/2) in a cycle at a smooth peak,
     as d^2 at a sharp one."""

@@ -34,7 +34,7 @@ def true_errors(name, result):
     [
         *((name, rtol, [1, 10]) for name in ("S1", "S3d", "S6", "S8_1") for rtol in (1e-6, 1e-10)),
         *((name, rtol, [1, 10]) for name in ("S2", "S3a", "S4") for rtol in (1e-3, 1e-8, 1e-14)),
-        *((name, 1e-6, [100]) for name in ("S2", "S4", "S6")),
+        *((name, 1e-6, [100]) for name in ("S4", "S6")),
     ],
 )
 def test_the_estimate_is_not_below_the_true_error_and_says_what_is_reached(name, rtol, cycles):
@@ -81,11 +81,11 @@ def test_steps_of_fixed_length_converge_with_the_order_of_the_method(method, ord
 @pytest.mark.parametrize("factor", [1e-6, 0.125, 1e6])
 def test_another_unit_of_length_scales_the_wear(factor):
     """Pressures and the dimensionless numbers stay."""
-    plain_units = integrate(reference_scene("S2"), [1, 10], 1e-10)
     lengths = {"roughness": 3.6e-4 * factor, "closure": 1.08e-3 * factor}
     scene = made(load=Sine(5e-4 * factor, 0.06), **lengths)
-    other_units = integrate(scene.with_({"motion.radius_mm": 22.0 * factor}), [1, 10], 1e-10)
-    np.testing.assert_allclose(other_units.u, factor * plain_units.u, rtol=2e-11)
+    found = integrate(scene.with_({"motion.radius_mm": 22.0 * factor}), [1, 10], 1e-10)
+    want = [factor * REFERENCE["S2"][cycle] for cycle in (1, 10)]
+    np.testing.assert_allclose(found.u, want, rtol=2e-11)
 
 
 @settings(max_examples=8)
@@ -97,7 +97,7 @@ def test_wear_coefficient_and_period_trade_off(factor):
     np.testing.assert_allclose(one.u, other.u, rtol=2e-8)
 
 
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(
     f_c=st.integers(-50, 1000).map(lambda thousandth: thousandth / 1000),
     log_K=st.floats(-7, -3),

@@ -16,7 +16,7 @@ from wear.direct.problem import scaled_ode
 from wear.load import Constant, Harmonics, Sine, Table
 from wear.scene import Scene
 
-from .reference_scenes import made
+from .reference_scenes import SHARP, made
 
 LARGEST_WEAR = 44 * math.pi * 1e-6  # mm per cycle at p_max and K = 1e-6
 
@@ -184,7 +184,6 @@ def test_kinks_of_a_compliant_support_cost_no_accuracy(k):
     assert np.all(np.abs(one.u / other.u - 1.0) <= one.error + other.error)
 
 
-SHARP = Table((0.0, 0.2, 0.5, 1.0), (0.0, 3e-4, -1e-4, 0.0))
 PLATEAU = Table((0.0, 0.2, 0.4, 1.0), (0.0, 3e-4, 3e-4, 0.0))
 
 

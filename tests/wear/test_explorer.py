@@ -188,18 +188,18 @@ SOLVED = """((phases) => {
 })"""
 
 
-def test_a_load_that_does_not_repeat_is_refused(tmp_path, capsys):
+def test_a_load_that_does_not_repeat_is_refused(tmp_path, call):
     own_scene(tmp_path, 'kind = "history"\nfile = "pin.csv"\nperiod_s = 0.01\n')
-    assert main(["explore", str(tmp_path / "own.toml"), "-o", str(tmp_path / "page.html")]) == 2
-    assert not (tmp_path / "page.html").exists()
-    assert "does not repeat" in capsys.readouterr().err
+    page = tmp_path / "page.html"
+    status, _, messages = call("explore", str(tmp_path / "own.toml"), "-o", str(page))
+    assert (status, "does not repeat" in messages, page.exists()) == (2, True, False)
 
 
-def test_command_reports_in_json(page_file, capsys, monkeypatch):
+def test_command_reports_in_json(page_file, call, monkeypatch):
     monkeypatch.setattr(explorer, "page", lambda scene, _: f"page of {scene.name}")
     target = page_file.with_name("other.html")
-    assert main(["explore", "section3", "-o", str(target), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == {"page": str(target), "bytes": 16}
+    shown = call("explore", "section3", "-o", str(target), "--json")[1]
+    assert json.loads(shown) == {"page": str(target), "bytes": 16}
     assert target.read_text() == "page of section3"
 
 

@@ -1,8 +1,9 @@
 """Legal and absurd magnitudes are told with the likely slip, and refused by --strict."""
 
+from typing import Any
+
 import pytest
 
-from wear import cli
 from wear.scene import builtin_names, hard_names, load_scene
 from wear.sensitivities import sensitivity
 from wear.solver import solve
@@ -54,19 +55,17 @@ def test_results_out_of_range_are_told(cycles: int, phrases: tuple[str, ...]) ->
         assert all(phrase in text for phrase, text in zip(phrases, found, strict=True))
 
 
-def test_strict_refuses_entries_and_results(capsys: pytest.CaptureFixture[str]) -> None:
-    request = ["run", "section4", "--cycles", "10", "--set", "motion.radius_mm=0.022"]
-    assert cli.main(request) == 0
-    assert "m typed as mm?" in capsys.readouterr().err
-    assert cli.main([*request, "--strict"]) == 2
-    assert "m typed as mm?" in capsys.readouterr().err
-    assert cli.main(["run", "section4", "--cycles", "1e8", "--strict"]) == 2
-    shown = capsys.readouterr()
-    assert (shown.out, "% of the radius" in shown.err) == ("", True)
-    assert cli.main(["asymptote", "section4", "--strict"]) == 0
+def test_strict_refuses_entries_and_results(call: Any) -> None:
+    request = ("run", "section4", "--cycles", "10", "--set", "motion.radius_mm=0.022")
+    for more, wanted in ((), 0), (("--strict",), 2):
+        status, _, messages = call(*request, *more)
+        assert (status, "m typed as mm?" in messages) == (wanted, True)
+    status, shown, messages = call("run", "section4", "--cycles", "1e8", "--strict")
+    assert (status, shown, "% of the radius" in messages) == (2, "", True)
+    assert call("asymptote", "section4", "--strict")[0] == 0
 
 
-def test_what_is_given_twice_is_said() -> None:
+def test_what_is_given_twice_is_said(call: Any) -> None:
     assert "cycles: 10 given more than once" in solve(SECTION4, [10, 1, 10]).notices
-    assert cli.main(["run", "section4", "--set", "bearing.hardness_MPa=1",
-                     "--set", "bearing.hardness_MPa=2"]) == 2  # fmt: skip
+    twice = ("--set", "bearing.hardness_MPa=1", "--set", "bearing.hardness_MPa=2")
+    assert call("run", "section4", *twice)[0] == 2

@@ -81,7 +81,7 @@ def exact(law: Law, at: float, give: float, near: float) -> mpmath.mpf:
 # Stiffness from 1 to 1e12 MPa/mm, roughness from 1e-9 to 1e-2 mm: roughnesses per pressure.
 gives = st.floats(-10, 9).map(lambda exponent: 10.0**exponent)
 ratios = st.floats(-20, 20) | st.floats(-20, 170)  # h/sigma in the end
-settled = settings(max_examples=60, deadline=None)
+settled = settings(max_examples=60)
 
 
 def state(law: Law, ratio: float, give: float):

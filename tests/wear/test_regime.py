@@ -134,7 +134,7 @@ def test_thresholds():
     assert double == pytest.approx(_published("thresholds", "f_float64"), rel=1e-15)
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(st.floats(1e-3, 100.0), st.sampled_from([-1.0, 1.0]))
 def test_long_time_formulas_are_good_to_a_few_ulp(slope, sign):
     """f_c from 0.001 to 100, both signs (a rough pin that does not wear makes both steady)."""
@@ -189,7 +189,7 @@ def test_the_load_factor_does_not_overflow():
     assert np.isfinite(found.offset_mm)
 
 
-@settings(max_examples=25)
+@settings(max_examples=15)
 @given(
     f=st.tuples(st.integers(-40, 60), st.integers(-40, 60)),
     pin=st.tuples(st.integers(0, 1000), st.floats(-8.0, -5.0)),

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import wear
-from wear import cli
 
 NAN, INF = float("nan"), float("inf")
 K, HARDNESS = "bearing.wear_coefficient", "bearing.hardness_MPa=150,200"
@@ -18,7 +17,7 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
 
 
 @pytest.mark.parametrize(
-    "call",
+    "wrong",
     [
         lambda: OPEN.solve("section4", "abc"),
         lambda: OPEN.solve("section4", "9000"),
@@ -131,9 +130,9 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: replace(SECTION4, name=3),  # type: ignore[arg-type]
     ],
 )
-def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
+def test_no_call_ends_otherwise_than_by_an_error_of_the_family(wrong):
     with pytest.raises(wear.WearError) as caught:
-        call()
+        wrong()
     assert str(caught.value).strip()
 
 
@@ -172,13 +171,9 @@ def test_no_call_ends_otherwise_than_by_an_error_of_the_family(call):
         "report section4 --set bearing.hardness_MPa=0 -o out",
     ],
 )
-def test_no_command_ends_otherwise_than_by_status_2(line, capsys, tmp_path, monkeypatch):
+def test_no_command_ends_otherwise_than_by_status_2(line, call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    try:
-        status = cli.main(line.split())
-    except SystemExit as stop:
-        status = int(str(stop.code))
-    shown = capsys.readouterr()
-    assert (status, shown.out) == (2, "")
-    assert shown.err.startswith(("wear", "usage"))
+    status, shown, messages = call(*line.split())
+    assert (status, shown) == (2, "")
+    assert messages.startswith(("wear", "usage"))
     assert not list(tmp_path.iterdir())

@@ -12,12 +12,15 @@ from derive.check import Check
 from derive.equations import Equation
 from derive.kernel import step_key
 from derive.verification import Verification
+from wear.bounds import static_bounds, wear_bounds
 from wear.report.claims import Entry, decided
 from wear.report.document import Document
 from wear.report.paper import drawings
 from wear.report.paper import paper as written
 from wear.report.runs import Runs, run
 
+#: Cycles that are bounded, of 9000.
+BOUNDED = (100,)
 #: Those that the text speaks of, and some others.
 CLAIMS = ("C1", "C4", "C7", "C14", "C15", "C16", "C17", "C24", *(f"C{n}" for n in range(32, 42)))
 
@@ -38,7 +41,11 @@ def few_claims() -> tuple[Entry, ...]:
 @cache
 def runs() -> Runs:
     """The runs of the report, made once for all tests."""
-    with patch("wear.report.runs.INTEGRATED_CYCLES", 50):  # of 600
+    with (
+        patch("wear.report.runs.INTEGRATED_CYCLES", 50),  # of 600
+        patch("wear.report.runs.static_bounds", lambda scene, _: static_bounds(scene, BOUNDED)),
+        patch("wear.report.runs.wear_bounds", lambda scene, _: wear_bounds(scene, BOUNDED)),
+    ):
         return run()
 
 
