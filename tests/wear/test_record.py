@@ -88,7 +88,7 @@ def drawn_records(draw: st.DrawFn) -> Scene:
     return dataclasses.replace(of, load=load)
 
 
-@settings(max_examples=15)
+@settings(max_examples=24)
 @given(drawn_records(), st.sampled_from([1e-6, 1e-9, 1e-12]))
 def test_drawn_records_against_an_independent_integrator(drawn: Scene, rtol: float) -> None:
     assert isinstance(drawn.load, HistoryLoad)
