@@ -8,7 +8,7 @@ loss of contact a few hundred lines are one cycle of `wear.loss_of_contact.perio
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -27,6 +27,7 @@ from wear.numerics.initial_value import SAFETY, SHORTEST, Rules, StoppedError, i
 from wear.orbit.period_map import PeriodMap, settings
 from wear.orbit.problem import Cost
 from wear.outcome import Outcome
+from wear.progress import Pace
 
 METHOD = "collocation"
 NODES, FINER_NODES = 8, 12  # on each line: for the result, and for its error estimate
@@ -37,12 +38,13 @@ APART = 1e-9  # of roughness and wear: a small difference
 
 
 class _Reached(NamedTuple):
-    """The `wear` (k,), mm, at requested times, its `error` (k,), mm, and the right-hand sides
-    evaluated since the times before."""
+    """The `wear` (k,), mm, at requested times, its `error` (k,), mm, the right-hand sides evaluated
+    since the times before, and the time (s) reached."""
 
     wear: FloatArray
     error: FloatArray
     evaluations: int
+    time: float
 
 
 class _Times(NamedTuple):
@@ -59,11 +61,14 @@ def follow(
     cycles: Sequence[int],
     rtol: float,
     deadline: float = np.inf,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> Outcome:
     """Return the wear after whole numbers of `cycles`, in any order, along a history.
 
     After the `deadline` (`time.monotonic()`) or on Ctrl-C the cycles reached by then are kept.
+    After two seconds `progress` is called at intervals.
     """
+    pace = Pace(progress)
     marks = tuple(sorted(set(cycles)))
     ends = load.time_at(np.array(marks))
     edges = np.union1d(np.append(load.breakpoints(0.0, ends[-1]), 0.0), ends)
@@ -72,11 +77,13 @@ def follow(
     along = _with_loss_of_contact if model.ends_at_3_sigma else _in_contact
     u, error = ([0.0], [0.0]) if ends[0] == 0.0 else ([], [])
     evaluations, stopped, interrupted = 0, None, False
+    pace.begin("cycle", marks[-1])
     try:
         for part in along(model, load, times, rtol, limit, deadline):
             u += part.wear.tolist()
             error += part.error.tolist()
             evaluations += part.evaluations
+            pace.at(part.time / load.period_s)
     except StoppedError as end:
         stopped = f"the wear could not be followed beyond u_c = {end.state:.6g} mm"
         if end.state > NEARLY * limit:
@@ -109,7 +116,8 @@ def _in_contact(
     rules, number = Rules(NODES, FINER_NODES, STRICTER * rtol), 0
     for part in integrate(sampled, times.edges, 0.0, rules, rounding, limit, deadline):
         here = times.requested[number : number + len(part.increment)]
-        yield _Reached(part.increment[here], part.error[here], part.evaluations)
+        time_reached = float(part.edges[-1])
+        yield _Reached(part.increment[here], part.error[here], part.evaluations, time_reached)
         number += len(here)
 
 
@@ -141,7 +149,8 @@ def _with_loss_of_contact(
         error = error * abs(1.0 + (beside - added) / apart) + local
         wear += added
         here = np.isin(part[-1:], requested)
-        yield _Reached(np.array([wear])[here], np.array([error])[here], run.evaluations)
+        after, uncertain = np.array([[wear], [error]])[:, here]
+        yield _Reached(after, uncertain, run.evaluations, float(part[-1]))
 
 
 def _as_a_cycle(

@@ -125,7 +125,7 @@ def _solved(
             wear = _by_abel(model, scene, wanted, rtol, deadline)
         elif name == "collocation":
             assert isinstance(scene.load, HistoryLoad)
-            wear = records.follow(model, scene.load, wanted, rtol, deadline)
+            wear = records.follow(model, scene.load, wanted, rtol, deadline, progress)
         else:
             wear = direct.integrate(model, scene.load, wanted, rtol, name, deadline, progress)
         if reason:
