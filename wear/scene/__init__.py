@@ -78,7 +78,8 @@ class Scene(SceneTable):
         """
         source = Source(_place(str(name)))
         if folder is not None and not is_path(folder):
-            raise SceneError([f"folder: {folder!r} is not the name of a folder"])
+            problem = f"folder: {folder!r} is not the name of a folder"
+            raise SceneError([Fault(source.file, None, "", "", problem, "give a path")])
         return _checked(tables, source, str(name), None if folder is None else Path(folder))
 
     def with_(self, changes: Mapping[str, Any]) -> Scene:
