@@ -80,8 +80,10 @@ def _inflection(phi: sp.Expr) -> sp.Expr:
     with mpmath.workdps(50):
         values = [(mpmath.mpf(x) / 4, value(mpmath.mpf(x) / 4)) for x in GRID]
         signs = [(x, mpmath.sign(y)) for x, y in values if y != 0]
+        if not signs:
+            raise UsageError("phi is too steep: its curvature vanishes at every quarter of r")
         turns = [(a, b) for (a, s), (b, t) in pairwise(signs) if s != t]
-        if not turns and signs and signs[0][1] > 0:
+        if not turns and signs[0][1] > 0:
             return sp.S.NegativeInfinity
         if len(turns) != 1 or signs[0][1] > 0:
             raise UsageError("phi must be concave below one value of r and convex above it")

@@ -44,6 +44,8 @@ PHASES = 64
 """Phases, and panels of phase, of one cycle."""
 FINE_PANELS = 256
 """Panels of a cycle in which wear is fast."""
+MOST_CYCLES = 10**6
+"""Cycles, which take half a millisecond each."""
 SMALL_STEP = 0.1
 """Wear in a cycle, as a share of the roughness, up to which the frozen wear is a good start."""
 STRIP = math.pi / 8
@@ -85,8 +87,8 @@ def wear_bounds(scene: Scene, cycles: Sequence[int]) -> tuple[Enclosure, ...]:
     Raises
     ------
     UsageError
-        for loss of contact, a law other than tanh, or a load with kinks; `static_bounds` admits
-        kinks.
+        for loss of contact, a law other than tanh, more than a million cycles, or a load with
+        kinks; `static_bounds` admits kinks.
 
     >>> from wear import load_scene
     >>> low, high = wear_bounds(load_scene("section4"), [1])[0]
@@ -115,6 +117,11 @@ def _both(scene: Scene, cycles: Sequence[int], low: Any, high: Any) -> tuple[Enc
             "at 3 sigma"
         )
     count = whole_cycles(cycles, faults, least=1)
+    if max(count, default=0) > MOST_CYCLES:
+        faults.append(
+            f"bounds go cycle by cycle, up to {MOST_CYCLES} of them (some minutes); "
+            "for more, solve gives the wear with an estimated error"
+        )
     faults.stop_if_any()
     lift = 0.0
     if scene.support is not None:

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 import numbers
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Sized
+from itertools import islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from wear import direct
-from wear.faults import Faults
+from wear.faults import Faults, UsageError
 from wear.load import HistoryLoad
 from wear.load.spans import most_cycles
 from wear.quantities import MOST_CYCLES
@@ -20,6 +21,7 @@ from wear.scene import Scene, as_scenes
 
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
+MOST_ITERATED = 10**6  # numbers taken from an iterator, which may be endless
 
 
 def is_number(given: object) -> bool:
@@ -71,11 +73,12 @@ def _several(given: Any) -> list[Any]:
         given = given.to_numpy()
     if isinstance(given, np.ndarray | np.generic):
         given = given.tolist()
-    return (
-        list(given)
-        if isinstance(given, Iterable) and not isinstance(given, str | bytes)
-        else [given]
-    )
+    if not isinstance(given, Iterable) or isinstance(given, str | bytes):
+        return [given]
+    numbers = list(given) if isinstance(given, Sized) else list(islice(given, MOST_ITERATED + 1))
+    if not isinstance(given, Sized) and len(numbers) > MOST_ITERATED:
+        raise UsageError(f"an iterator gives more than {MOST_ITERATED} numbers; give a list")
+    return numbers
 
 
 def check_rtol(rtol: float, faults: Faults, least: float = LEAST_RTOL) -> None:

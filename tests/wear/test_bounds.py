@@ -96,6 +96,11 @@ def test_only_whole_cycles(cycles):
         wear_bounds(made(), cycles)
 
 
+def test_more_cycles_than_anybody_waits_for_are_refused():
+    with pytest.raises(UsageError, match="up to 1000000 of them"):
+        wear_bounds(made(), [1, 10**12])
+
+
 def test_what_has_no_bounds_is_told():
     with pytest.raises(UsageError, match="does not end at 3 sigma"):
         wear_bounds(made(cutoff=True), [1])

@@ -137,6 +137,7 @@ def test_a_figure_of_several_scenes_with_readings_and_a_limit(call, tmp_path):
     assert (shown["scenes"], shown["cycles"]) == (["section4", "section4-cutoff"], [0, 50])
     assert shown["reached"] == ["counted", "never"]
     assert shown["cycles_until"][1] is None
+    assert ": 1 cycle\n" in call(*request, "--until-wear", "1e-5")[1]
     data.write_text("cycles,wear_um,motion.radius_mm\n10,0.3,-1\n20,1,-1\n")
     status, _, messages = call(*request, "--axis", "days")
     assert status == 2

@@ -232,6 +232,18 @@ def test_a_forecast_covers_the_truth_and_a_life_is_its_inverse(found):
     assert wide == pytest.approx(band / steepness, rel=0.01)
 
 
+def test_the_start_may_be_off_where_another_solid_wears_too():
+    """No valley is taken in which the residuals are forty standard errors; nor is there a warning
+    of a division where no scene is left."""
+    cycles = np.array([1.0, 8.0, 72.0, 611.0, 5189.0, 44038.0])
+    wear_mm = np.array([2.178e-5, 1.648e-4, 9.661e-4, 2.912e-3, 8.847e-3, 3.669e-2])
+    start = load_scene("section5").with_({K: 1.62e-7, GROWTH: 0.1332})
+    found = wear.fit([Specimen("", cycles, wear_mm, 0.047 * wear_mm, {})], start, [K, GROWTH])
+    assert found.chi_square < 10.0
+    for profile, truth in zip(found.profiles, (6.92e-7, 0.1554), strict=True):
+        assert profile.interval[0] < truth < profile.interval[1]
+
+
 def test_precise_readings_far_from_the_start_are_fitted():
     """Residuals of thousands of standard errors are residuals all the same."""
     wear_mm = wear.solve("section4", CYCLES.astype(int), rtol=1e-8).u_c

@@ -191,7 +191,7 @@ def test_what_is_no_law_is_a_fault(raw):
         ("1/(1 + r^2)", "concave below one value"),
         ("1/(1 + exp(r)/3) + 1/(1 + 148*exp(20*r))/100", "3 times"),  # two within a quarter
         ("1/r", "kink"),
-        ("(1 - tanh(1000000*r))/2", "concave below one value"),  # between two points of the grid
+        ("(1 - tanh(1000000*r))/2", "too steep"),  # it turns between two points of the grid
         ("exp(-exp(exp(r)))", "too large to be computed"),
         ("exp(-exp(r^20))", "too large to be computed"),
         ("exp(-r - sqrt(r^2)/2)", "kink"),

@@ -1,6 +1,7 @@
 """Whatever is wrong with a request is one of the documented errors, by command line and Python."""
 
 from dataclasses import replace
+from itertools import count, cycle
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ NAN, INF = float("nan"), float("inf")
 K, HARDNESS = "bearing.wear_coefficient", "bearing.hardness_MPa=150,200"
 SECTION4 = wear.load_scene("section4")
 READ = {"cycles": [10, 100], "wear_mm": [3e-4, 8e-4]}
+TABLES, RECORD = SECTION4.to_tables(), {"kind": "table", "file": "pin.csv"}
 OPEN: Any = wear  # whose calls below are wrong on purpose
 
 
@@ -128,6 +130,42 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.study("section4", 3, 1, "out.zarr"),
         lambda: OPEN.solve("section4", 1).write("/no such folder/wear.csv"),
         lambda: replace(SECTION4, name=3),  # type: ignore[arg-type]
+        lambda: OPEN.solve("section4", count(1)),
+        lambda: OPEN.cycles_to_depth(["section4"], cycle([1e-3])),
+        lambda: OPEN.Scene.from_dict({**TABLES, "load": RECORD}, folder=3),
+        lambda: OPEN.sensitivity("section4", []),
+        lambda: OPEN.sensitivity("section4", [1, -1]),
+        lambda: OPEN.sensitivity(OPEN, 1),
+        lambda: OPEN.sensitivity("section4", 1, rtol=1),
+        lambda: OPEN.gradients(["section4"], [K, K], 1),
+        lambda: OPEN.gradients(["section4"], [None], 1),
+        lambda: OPEN.gradients([SECTION4], {K: 1}, count(1)),
+        lambda: OPEN.fit({}, "section4", K),
+        lambda: OPEN.fit({"cycles": [], "wear_mm": []}, "section4", K),
+        lambda: OPEN.fit(READ | {"specimen": [1]}, "section4", K),
+        lambda: OPEN.fit(READ | {"cycles": [100, 10]}, "section4", K),
+        lambda: OPEN.fit(READ | {"cycles": "ab"}, "section4", K),
+        lambda: OPEN.fit(READ | {"wear_um": [1, 2]}, "section4", K),
+        lambda: OPEN.fit(READ | {"wear_mm": [NAN, 1]}, "section4", K),
+        lambda: OPEN.fit(READ | {"standard_error_mm": [0, 1]}, "section4", K),
+        lambda: OPEN.fit(READ, None, K),
+        lambda: OPEN.fit(READ, "section4", K, K),
+        lambda: OPEN.fit(READ, "section4", K, error=None),
+        lambda: OPEN.fit(READ, "section4", K, ignore=["a"]),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).life(NAN),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).life("a"),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).life([1e-3, 2e-3]),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).forecast(count(1)),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).next_reading(NAN),
+        lambda: OPEN.fit(READ, "section4", K, intervals=False).as_json([0]),
+        lambda: OPEN.posterior(OPEN.fit(READ, "section4", K, intervals=False), 0),
+        lambda: OPEN.study("section4", [HARDNESS] * 2, 1, "out.zarr"),
+        lambda: OPEN.study("section4", HARDNESS, count(1), "out.zarr"),
+        lambda: OPEN.study("section4", "bearing.hardness_MPa=150:200:0", 1, "out.zarr"),
+        lambda: OPEN.study("section4", "bearing.hardness_MPa=", 1, "out.zarr"),
+        lambda: OPEN.study("section4", "bearing.hardness_MPa=uniform(2,1)", 1, "out.zarr"),
+        lambda: OPEN.sobol_indices("section4", HARDNESS, 1),
+        lambda: OPEN.sobol_indices("section4", "bearing.hardness_MPa=uniform(1,2)", [], samples=8),
     ],
 )
 def test_no_call_ends_otherwise_than_by_an_error_of_the_family(wrong):

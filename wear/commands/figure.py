@@ -139,7 +139,8 @@ def _against_cycles(options: Options) -> Answer:
         summary["reached"] = [life.reached[0].value for life in lives]
         for name, life, texts in zip(runs, lives, found, strict=True):
             text = run_output.life_text(life.cycles[0], life.error[0], life.reached[0].value)
-            unit = " cycles" if math.isfinite(life.cycles[0]) else ""
+            number = life.cycles[0]
+            unit = "" if not math.isfinite(number) else " cycle" if number == 1 else " cycles"
             lines.append(f"{name}: {limit:g} mm: {text}{unit}")
             texts += life.notices
     notices = [

@@ -82,10 +82,12 @@ class Estimate:
     @property
     def quantile(self) -> float:
         """Return the half width of a 95 % interval in standard deviations."""
-        from scipy import stats
+        from scipy.special import ndtri, stdtrit
 
-        law = stats.norm if self.model.residuals.known else stats.t(self.degrees_of_freedom)
-        return float(law.ppf((1.0 + CONFIDENCE) / 2.0)) if np.isfinite(self.scatter) else np.inf
+        share, freedom = (1.0 + CONFIDENCE) / 2.0, self.degrees_of_freedom
+        if not np.isfinite(self.scatter):
+            return np.inf
+        return float(ndtri(share) if self.model.residuals.known else stdtrit(freedom, share))
 
     @cached_property
     def scale(self) -> FloatArray:

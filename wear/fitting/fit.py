@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wear.faults import Faults
+from wear.faults import Faults, UsageError
 from wear.fitting import identifiability, laws
 from wear.fitting.estimate import Estimate
 from wear.fitting.least_squares import descend, estimate
@@ -27,7 +27,7 @@ from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
-from wear.request import whole_cycles
+from wear.request import is_number, whole_cycles
 from wear.states import notices_of_wear
 
 if TYPE_CHECKING:
@@ -117,6 +117,8 @@ class Fit(Estimate):
         """
         from wear.cycles import cycles_to_depth
 
+        if not is_number(wear_mm):
+            raise UsageError(f"wear: {wear_mm!r} is not one depth in mm")
         specimens = self.model.specimens
         numbers = cycles_to_depth(self.scenes, wear_mm).cycles[:, 0]
         near = np.clip(np.where(np.isfinite(numbers), numbers, 1.0), 1.0, 0.98 * MOST_CYCLES)

@@ -20,6 +20,7 @@ SEARCH_RANGE = 20.0  # e-folds, or multiples of a parameter's size, around the s
 GROWTHS, GROWTH_RTOL = (0.02, 1.0), 0.01  # of roughness: range and accuracy of a start
 LEAST_LATE_RATE = 1e-3  # of the mean wear per cycle: least wear per cycle in the last readings
 CURVE_POINTS = 49  # of the wear of a start, to be compared with the readings
+FOLDS = (-4.0, -2.0, 2.0, 4.0)  # e-folds from the wear coefficients of the scene to other starts
 DESCENTS = 3  # from the best starts
 ACCURACY = 1e-3  # of the variance: accuracy of the least sum of squares
 SMALL_GAIN = 0.01  # of the variance: after a smaller gain the first failing step ends a descent
@@ -74,8 +75,9 @@ def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     """Return the point (p,) of least squares, from several starts.
 
     These are the scene itself, the scene with the roughness growth of `_starting_growth` if that is
-    free, and both with wear coefficients by `_with_matched_pace`. Raises `UsageError` if no start
-    has any wear, or a parameter has no influence.
+    free, both with wear coefficients by `_with_matched_pace`, which need not suit where another
+    solid wears too, and the scene with smaller and larger ones. Raises `UsageError` if no start has
+    any wear, or a parameter has no influence.
     """
     centre = model.start()
     growths = np.array([p.key.endswith(".roughness_growth") for p in model.parameters])
@@ -89,7 +91,9 @@ def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     idle = np.all(slope == 0.0, axis=(0, 1))
     parameters = zip(model.parameters, idle.tolist(), strict=True)
     Faults(f"free: {p}: has no influence" for p, none in parameters if none).stop_if_any()
-    starts = np.concatenate([starts, _with_matched_pace(model, starts[finite])])
+    worn = np.array([p.key.endswith(".wear_coefficient") for p in model.parameters])
+    others = centre + np.outer(FOLDS, worn) if worn.any() else np.empty((0, len(centre)))
+    starts = np.concatenate([starts, _with_matched_pace(model, starts[finite]), others])
     best = starts[np.argsort(model.cost(starts), kind="stable")[:DESCENTS]]
     points, costs = descend(model, best, (centre, SEARCH_RANGE * model.scale(centre)), say)
     return np.asarray(points[np.argmin(costs)])

@@ -94,6 +94,7 @@ class _Ends:
             trial = before + step * fit.scale
             residuals_there, trial_slope = fit.model(trial)
             bad = self._root(residuals_there) > limit
+            bad &= trial_slope.any(axis=(1, 2))  # where there is a scene
             if bad.any():  # the valley bends: the other parameters follow
                 near = LinearModel.of(
                     residuals_there[bad], trial_slope[bad] * fit.scale, number[bad]

@@ -14,6 +14,7 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -73,13 +74,12 @@ class Response(NamedTuple):
     @classmethod
     def of(
         cls,
-        equation: ParametrisedEquation,
         series: IncrementSeries,
+        origin: FloatArray,
         wear: FloatArray,
         run: CycleDerivatives,
     ) -> Response:
         """Return the response along a series by the cycles from the wears `sample_wears` of it."""
-        origin = derivative_of_origin(equation, series.coordinate)
         distance = _distance(series.coordinate, wear)
         relative = run.along(origin)[0] / run.increment[:, None]
         relative[:, 0] *= distance
@@ -123,23 +123,26 @@ def sample_wears(series: IncrementSeries) -> FloatArray:
     return np.minimum(wear, domain.coordinate.origin - nearest) if domain.tends else wear
 
 
-def derivative_of_origin(equation: ParametrisedEquation, coordinate: Coordinate) -> FloatArray:
-    """Return the derivatives (parameters,) of the grazing wear that is the origin of a coordinate;
-    zero if there is none."""
-    if coordinate.shift:
-        return np.zeros(equation.parameters)
-    derivative = derivative_of_grazing_wear(equation, coordinate.origin)
-    return np.where(np.isfinite(derivative), derivative, 0.0)
+def derivatives_of_origins(
+    equation: ParametrisedEquation, coordinates: Sequence[Coordinate]
+) -> FloatArray:
+    """Return the derivatives (k, parameters) of the grazing wears that are the origins of k
+    coordinates; zero where there is none."""
+    if not coordinates:
+        return np.zeros((0, equation.parameters))
+    origin, shift = np.array([(each.origin, each.shift) for each in coordinates]).T
+    derivatives = derivatives_of_grazing_wears(equation, origin)
+    return np.where((shift == 0.0)[:, None] & np.isfinite(derivatives), derivatives, 0.0)
 
 
-def derivative_of_grazing_wear(equation: ParametrisedEquation, wear: float) -> FloatArray:
-    """Return the derivatives (parameters,) of the grazing wear next to `wear` (mm), at which a
-    turning point of the load just fails to make contact."""
+def derivatives_of_grazing_wears(equation: ParametrisedEquation, wear: FloatArray) -> FloatArray:
+    """Return the derivatives (k, parameters) of the grazing wears next to each `wear` (k,), mm, at
+    which a turning point of the load just fails to make contact."""
     (load,) = equation.loads
     turns = turning_points(load)
-    nearest = np.argmin(np.abs(equation.model.margin(np.array([wear]), load(turns))))
-    slope, change = _margin(equation, np.array([wear]), turns[[nearest]])
-    return np.asarray(-change[0, 1:] / slope[0])
+    margin = equation.model.margin(wear[:, None], load(turns))
+    slope, change = _margin(equation, wear, turns[np.argmin(np.abs(margin), axis=1)])
+    return np.asarray(-change[:, 1:] / slope[:, None])
 
 
 def map_derivatives(

@@ -11,8 +11,8 @@ from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.loss_of_contact.cycle_derivatives import (
     CycleDerivatives,
     Response,
-    derivative_of_grazing_wear,
-    derivative_of_origin,
+    derivatives_of_grazing_wears,
+    derivatives_of_origins,
     map_derivatives,
     sample_wears,
 )
@@ -61,21 +61,24 @@ def stage_tangents(
     increments, their derivatives are a series, too.
     """
     size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
-    cycle = switched_period_map(*scene, size.finer_nodes, size.endpoint_tolerance)
+    cycle = switched_period_map(*scene, size.phase_nodes, size.endpoint_tolerance)
     segments = [segment.iterates for segment in solution.orbit.segments]
-    runs = _of_each(cycle, equation, segments)
+    tables = [iterates for iterates in segments if isinstance(iterates, TabulatedIterates)]
+    series = list({id(table.series): table.series for table in tables}.values())
+    origins = derivatives_of_origins(equation, [each.coordinate for each in series])
+    runs = _of_each(cycle, equation, segments, list(zip(series, origins, strict=True)))
+    of_series = {id(each): origin for each, origin in zip(series, origins, strict=True)}
 
     def in_segment(number: int, wanted: FloatArray, before: Known) -> tuple[Known, FloatArray]:
         iterates, run = segments[number], runs[number]
         if isinstance(iterates, Iterates):
             return _one_by_one(iterates, run, wanted, before)
         if isinstance(iterates, TabulatedIterates):
-            limit = derivative_of_origin(equation, iterates.coordinate)
-            return _tabulated(iterates, run, limit, wanted, before)
+            return _tabulated(iterates, run, of_series[id(iterates.series)], wanted, before)
         # In an unresolved segment no cycle is known.
         limit = np.full(equation.parameters, np.inf)
         if iterates.at_rest[0]:
-            limit = derivative_of_grazing_wear(equation, solution.last_wear)
+            (limit,) = derivatives_of_grazing_wears(equation, np.array([solution.last_wear]))
         found = np.broadcast_to(limit, (*wanted.shape, len(limit)))
         return Known(found, np.abs(found) / LIMIT_DIGITS), np.zeros_like(wanted)
 
@@ -183,25 +186,28 @@ def _added(
 
 
 def _of_each(
-    cycle: SwitchedPeriodMap, equation: ParametrisedEquation, segments: Sequence[AnyIterates]
+    cycle: SwitchedPeriodMap,
+    equation: ParametrisedEquation,
+    segments: Sequence[AnyIterates],
+    known: Sequence[tuple[IncrementSeries, FloatArray]],
 ) -> list[CycleDerivatives]:
     """Return the derivatives of the cycles that each segment needs, all at once: by the response
-    along a series of increments where that takes fewer cycles."""
+    along a `known` series of increments, with the derivatives (parameters,) of its origin, where
+    that takes fewer cycles."""
     starts = [_starts(iterates) for iterates in segments]
     wear = np.concatenate(starts)
     alone = np.full(len(wear), True)
-    sampled: list[tuple[IncrementSeries, FloatArray, BoolArray]] = []
-    tables = [iterates for iterates in segments if isinstance(iterates, TabulatedIterates)]
-    for series in {id(table.series): table.series for table in tables}.values():
+    sampled: list[tuple[IncrementSeries, FloatArray, FloatArray, BoolArray]] = []
+    for series, origin in known:
         along = alone & (series.domain.start <= wear) & (wear < series.domain.end)
         if np.count_nonzero(along) > len(own := sample_wears(series)) > 0:
-            sampled.append((series, own, along))
+            sampled.append((series, origin, own, along))
             alone &= ~along
-    parts = [wear[alone], *(own for _, own, _ in sampled)]
+    parts = [wear[alone], *(own for _, _, own, _ in sampled)]
     first, *others = _split(map_derivatives(cycle, equation, np.concatenate(parts)), parts)
     runs, order = [first], [np.flatnonzero(alone)]
-    for (series, own, along), run in zip(sampled, others, strict=True):
-        runs.append(Response.of(equation, series, own, run).map_derivatives(wear[along]))
+    for (series, origin, own, along), run in zip(sampled, others, strict=True):
+        runs.append(Response.of(series, origin, own, run).map_derivatives(wear[along]))
         order.append(np.flatnonzero(along))
     back = np.argsort(np.concatenate(order))
     return _split(take(stacked(runs), back), starts)

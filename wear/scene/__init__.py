@@ -76,9 +76,11 @@ class Scene(SceneTable):
 
         Raises `SceneError` with every fault. `folder` is where CSV files are looked for.
         """
-        if isinstance(folder, str):
-            folder = Path(folder)
-        return _checked(tables, Source(_place(str(name))), str(name), folder)
+        source = Source(_place(str(name)))
+        if folder is not None and not is_path(folder):
+            problem = f"folder: {folder!r} is not the name of a folder"
+            raise SceneError([Fault(source.file, None, "", "", problem, "give a path")])
+        return _checked(tables, source, str(name), None if folder is None else Path(folder))
 
     def with_(self, changes: Mapping[str, Any]) -> Scene:
         """Return the scene with entries changed, as `--set` changes those of a file; None drops.
