@@ -15,6 +15,7 @@ from tests.wear.reference_scenes import made
 from tests.wear.test_cycle_count import between
 from tests.wear.test_cycle_loss_of_contact import loads, supported, with_load
 from wear import cycles as count
+from wear import direct
 from wear.binding import bind
 from wear.faults import AccuracyError
 from wear.load import Harmonics, Sine, Table
@@ -179,3 +180,17 @@ def test_two_rough_solids_on_a_nearly_rigid_support(K, f_c, swing):
     assume(float(bind(scene).margin(0.0, scene.periodic_load.maximum)) > 1e-6)
     found = count.wear_after(bind(scene), scene.periodic_load, np.array([1.0, 2.0]), 1e-12)
     assert honest(found.u_c, found.error, true_wear(scene, [1, 2]))
+
+
+@pytest.mark.parametrize("cycles", [[10.0, 300.0], [10.0, 300.0, 1e8]])
+def test_wear_that_runs_away_to_full_contact(cycles):
+    """Nearly all cycles lie in the last thousandth of the coordinate: they were walked one by one,
+    without an end; and a range of wear whose first panels had failed was taken for a whole one."""
+    load = Table((0.0, 0.02, 0.04, 0.06), (-6.675e-5, -2.64e-5, 6.11e-5, -6.675e-5))
+    pin = {"wear_coefficient": 1e-6}
+    scene = made(5.732e-8, 0.0743, load, roughness=1.0476e-4, closure=2.692e-4, law="exponential",
+                 pin=pin, cutoff=True)  # fmt: skip
+    found = count.wear_after(bind(scene), load, np.array(cycles), 1e-9)
+    want = direct.integrate(bind(scene), load, [10, 300], 1e-6)
+    assert np.all(found.error <= 1e-9)
+    assert honest(found.u_c[:2], found.error[:2], want.u, want.error)

@@ -64,6 +64,7 @@ from wear.scene_orbit import End, SceneOrbit
 FEW = 4.0  # cycles to the next grazing wear: these are integrated
 KEPT = 5  # cycles integrated one by one even when there is no time left
 MOST_SINGLE = 2000  # cycles integrated one by one: then the count ends
+MOST_WALKED = 100_000  # cycles taken one by one on series: then it ends, too
 APART = 1e-9  # of roughness and wear: a small difference
 MOST_AT_ONCE = 1000
 VIOLENT = 0.5  # of the wear and its scale: larger increments have no series
@@ -147,7 +148,7 @@ class _Counter:
         self.planned_to = start
         self.samples = Samples()
         self.last_added, self.last_growth = 0.0, 1.0
-        self.singles = 0
+        self.singles = self.walked = 0
         self.predicted: list[float] | None = None
         self.cost = Cost(0, 0)
 
@@ -220,6 +221,8 @@ class _Counter:
         found = walked(here.series, self.wear, end, most)
         if not found.added:
             return False
+        self.walked += len(found.added)
+        self.over = self.walked >= MOST_WALKED
         if here.series.domain.tends and end == here.end and len(found.wear) <= most:
             rest = here.series.domain.end - found.wear[-1]
             ends = [found.wear[-1], here.series.domain.end, here.series.domain.end]

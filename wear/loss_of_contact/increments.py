@@ -32,7 +32,7 @@ GRAIN = 16.0  # times the uncertainty of a distance: the rounding error of an in
 WIDE = 2.0  # panel, in ln(z + shift): it is cut in the middle of that
 FAR_OFF = 1e3  # times the tolerance: then a panel is cut in four, else in two
 FAR_BEYOND = 700.0  # logarithm of an increment over the level of its panel
-SAME = 1e-9  # of a domain: two wears that differ by less are one
+SAME = 1e-9  # of w and its scale: two that differ by less are one
 USABLE = 10.0  # times the tolerance: the largest misfit of a series in use
 TO_ROUNDOFF = 0.25 * ROUNDOFF  # of the wear: the distance from its limit at which a count ends
 TERMS = 6  # at most, by which a series is extrapolated to a limit wear
@@ -246,18 +246,21 @@ def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
     order = np.argsort(grid.starts)
     starts, ends = grid.starts[order], grid.ends[order]
     gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
-    joined, near = [], SAME * (domain.end - domain.start)
+    joined, first, last = [], domain.grid.starts[0], domain.grid.ends[0]
     for run in np.split(order, gaps) if len(order) else []:
         panels = take(fit, run)
         begin, end = np.sort(domain.wear(np.array([panels.grid.starts[0], panels.grid.ends[-1]])))
-        begin = domain.start if begin <= domain.start + near else begin
-        whole = end >= domain.end - near
-        last = domain.end if whole else end
-        if domain.tends and whole:
-            last = domain.coordinate.origin
+        complete = [
+            panels.grid.starts[0] <= first + SAME * (first + domain.scale),
+            panels.grid.ends[-1] >= last - SAME * (last + domain.scale),
+        ]
+        from_start, to_end = complete if domain.power > 0.0 else complete[::-1]
+        tends = domain.tends and to_end
+        if tends:
             panels = stacked([_to_limit(panels), panels])
-        tends = domain.tends and whole
-        part = domain._replace(start=float(begin), end=float(last), tends=tends)
+        begin = domain.start if from_start else float(begin)
+        end = domain.coordinate.origin if tends else domain.end if to_end else float(end)
+        part = domain._replace(start=begin, end=end, tends=tends)
         joined.append(panels._replace(domain=part))
     return joined
 

@@ -25,7 +25,8 @@ from wear.orbit.period_map import Settings
 WIDEST = 12.0  # panel of a count to a limit wear, in ln z: derivatives are smooth on it
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
 MOST_WALKED = 120  # cycles on a series that are taken one by one
-SAMPLES = 65  # of a series, to estimate its number of cycles
+SAMPLES, NEAR_END = 64, 32  # of a series, to estimate its number of cycles: equally far apart, and
+# each at half the distance to the end; where wear runs away, most of its cycles lie there
 MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
 SAME = 1e-9  # relative difference of two z that are one
@@ -121,7 +122,8 @@ def _samples(
     (s, k - 1), and the samples at which the increments are small (s, k)."""
     shift = np.array([series.coordinate.shift for series in fits])
     whole = abel.grid(shift, begin, end)
-    t = np.linspace(-1.0, 1.0, SAMPLES)
+    far = np.linspace(-1.0, 1.0, SAMPLES, endpoint=False)
+    t = np.concatenate([far, 1.0 - (1.0 - far[-1]) * 0.5 ** np.arange(1, NEAR_END), [1.0]])
     samples = whole.states(t)
     cycles = (samples + shift[:, None]) / _steps(fits, np.arange(len(fits)), samples)  # per y
     return samples, (cycles[:, 1:] + cycles[:, :-1]) / 2 * np.diff(whole.y_at(t)), cycles >= CALM
