@@ -14,7 +14,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 import sympy as sp
@@ -43,14 +43,20 @@ Relations = tuple[sp.Basic, ...]
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A model in which a claim fails: its drawn values as equations, and the failure."""
+    """A model in which a claim fails: its drawn values as equations, and the failure.
+
+    ``left`` is, instead of the claim, the domain that a quantity leaves, so that the model has no
+    value for it.
+    """
 
     model: tuple[sp.Eq, ...]
     where: str
+    left: sp.Basic | None = None
 
     def __str__(self) -> str:
         drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
-        return ": ".join(filter(None, (drawn, self.where)))
+        left = f"{self.left} fails".replace("(t)", "") if self.left is not None else ""
+        return ": ".join(filter(None, (drawn, left, self.where)))
 
 
 @dataclass(frozen=True)
@@ -101,10 +107,34 @@ def _tried(relations: Relations, claim: sp.Basic) -> TrialResult:
 def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
     """Return a model of all other hypotheses that breaks the claim, None if none is found.
 
-    None is no proof that the hypothesis is superfluous.
+    If none is found, the model may be one in which a quantity that the others determine leaves its
+    domain: the hypothesis then gives the claim a meaning.  None is no proof that the hypothesis is
+    superfluous.
     """
     relations, claim = _relations(judgement), _decidable(judgement.claim)
-    return falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
+    found = falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
+    left = (_leaving(q, relations, dropped.relation) for q in _determined(relations))
+    return found or next(filter(None, left), None)
+
+
+def _determined(relations: Relations) -> list[sp.Expr]:
+    """Return the quantities with a domain whose value or rate is the left side of an equation."""
+    sides = {h.lhs for h in relations if isinstance(h, sp.Eq) and not h.rhs.is_number}
+    known = {side.expr if isinstance(side, sp.Derivative) else side for side in sides}
+    fields = {q for q in known if q.is_Symbol or q.args == (t,)}
+    return sorted((q for q in fields if domain(q) is not None), key=str)
+
+
+def _leaving(
+    quantity: sp.Expr, relations: Relations, dropped: sp.Basic
+) -> Counterexample | None:
+    """Return a model without a hypothesis in which a quantity leaves its domain."""
+    stays = domain(quantity)
+    values = {h.lhs: h.rhs for h in relations if isinstance(h, sp.Eq)}
+    claim = stays.xreplace({quantity: values.get(quantity, quantity)})
+    *free, without, claimed = (_without_domain(r, quantity) for r in (*relations, dropped, claim))
+    found = falsify(free, claimed, _SEEDS, _SEEDS, without).counterexample
+    return found and replace(found, left=stays)
 
 
 def _relations(judgement: Judgement) -> Relations:
