@@ -347,7 +347,10 @@ def replay_fault(judgement: Judgement) -> str | None:
     )
 
 
-def step_key(step: Judgement) -> Hashable:
+StepKey = tuple[Rule, tuple[Hypothesis, ...], Claim, tuple[Hashable, ...]]
+
+
+def step_key(step: Judgement) -> StepKey:
     """Return a key that equal steps share."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
     return (step.rule, step.hypotheses, step.claim, parents)

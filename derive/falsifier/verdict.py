@@ -20,6 +20,7 @@ from functools import cache, lru_cache
 import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 from ..claims import Asymptotic, Claim, FirstZero, Predicate, Property, SlowEquation, Term
 from ..hypotheses import Hypothesis
@@ -113,26 +114,23 @@ def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counter
     """
     relations, claim = _relations(judgement), _decidable(judgement.claim)
     found = falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
-    left = (_leaving(q, relations, dropped.relation) for q in _determined(relations))
+    left = (_leaving(stays, relations, dropped.relation) for stays in _domains(relations))
     return found or next(filter(None, left), None)
 
 
-def _determined(relations: Relations) -> list[sp.Expr]:
-    """Return the quantities with a domain whose value or rate is the left side of an equation."""
+def _domains(relations: Relations) -> list[Relational]:
+    """Return the domains of quantities whose value or rate is the left side of an equation."""
     sides = {h.lhs for h in relations if isinstance(h, sp.Eq) and not h.rhs.is_number}
     known = {side.expr if isinstance(side, sp.Derivative) else side for side in sides}
-    fields = {q for q in known if q.is_Symbol or q.args == (t,)}
-    return sorted((q for q in fields if domain(q) is not None), key=str)
+    found = (domain(q) for q in sorted(known, key=str) if q.is_Symbol or q.args == (t,))
+    return [stays for stays in found if stays is not None]
 
 
-def _leaving(
-    quantity: sp.Expr, relations: Relations, dropped: sp.Basic
-) -> Counterexample | None:
+def _leaving(stays: Relational, relations: Relations, dropped: sp.Basic) -> Counterexample | None:
     """Return a model without a hypothesis in which a quantity leaves its domain."""
-    stays = domain(quantity)
     values = {h.lhs: h.rhs for h in relations if isinstance(h, sp.Eq)}
-    claim = stays.xreplace({quantity: values.get(quantity, quantity)})
-    *free, without, claimed = (_without_domain(r, quantity) for r in (*relations, dropped, claim))
+    claim = stays.xreplace({stays.lhs: values.get(stays.lhs, stays.lhs)})
+    *free, without, claimed = (_without_domain(r, stays.lhs) for r in (*relations, dropped, claim))
     found = falsify(free, claimed, _SEEDS, _SEEDS, without).counterexample
     return found and replace(found, left=stays)
 

@@ -110,11 +110,14 @@ class SteadyState:
     def highest_ratio(self) -> Judgement:
         """h/sigma stays below a bound that holds for all time, for a rough pin too."""
         model = self.model
-        parents = model.roughness, model.roughness_of_bearing, self.roughening, self.worn
-        rougher = Arithmetic(sp.Ge(sigma, roughness))(*parents, name="a rough pin adds roughness")
+        rougher = Arithmetic(sp.Ge(sigma, roughness))(
+            *(model.roughness, model.roughness_of_bearing, self.roughening, self.worn),
+            name="a rough pin adds roughness",
+        )
         claim = sp.Le(h / sigma, 1 / f_c + self.bound / sigma_c0)
-        parents = model.closure, model.wear_of_pin, rougher, *self.facts
-        return Arithmetic(claim)(*parents, name="highest closure ratio")
+        return Arithmetic(claim)(
+            *(model.closure, model.wear_of_pin, rougher, *self.facts), name="highest closure ratio"
+        )
 
     @cached_property
     def lowest_rate(self) -> Judgement:
