@@ -36,11 +36,15 @@ def step_checks(judgement: Judgement) -> tuple[Check, ...]:
 
 
 def model_checks(judgement: Judgement) -> tuple[Check, ...]:
-    """Try a step on models, none of which may break it; a hypothesis has no such check."""
+    """Try a step on models, none of which may break it; a hypothesis has no such check.
+
+    The kind is ``undecided`` if no model gives the claim a truth value.
+    """
     if isinstance(judgement.rule, Assume):
         return ()
     answer = try_on_models(judgement)
-    return (Check("falsifier", answer.passed, str(answer)),)
+    kind = "falsifier" if answer.decided else "undecided"
+    return (Check(kind, answer.passed, str(answer)),)
 
 
 def condition_checks(judgement: Judgement) -> tuple[Check, ...]:

@@ -40,7 +40,7 @@ from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
 _TOKEN = object()
-_PRESSURE = symbol("p")
+_PRESSURE, _PERIOD = symbol("p"), symbol("T")
 LIMIT_S = 60.0
 """Limit of CPU time for a symbolic step, in seconds."""
 
@@ -276,13 +276,16 @@ def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
 def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:
     """Return relations at a late time, and between limits, which keep an order but no strictness.
 
-    Then what tends to infinity exceeds every constant, and the rest is near its limit.
+    Then what tends to infinity exceeds every constant, and the rest is near its limit.  What has a
+    rate above a positive constant tends to infinity; a periodic field is what it was at the start.
     """
     said = [part for relation in relations for part in sp.And.make_args(relation)]
     limits = [r for r in said if isinstance(r, sp.Eq) and isinstance(r.lhs, sp.Limit)]
-    if not limits:
-        return frozenset()
     ends = [(limit.lhs.args[0], limit.rhs) for limit in limits]
+    ends += [(r.gts.expr, sp.oo) for r in said if r.func in _WEAK and _speeds(r)]
+    if not ends:
+        return frozenset()
+    said += [sp.Eq(r.rhs, r.rhs.subs(t, 0), evaluate=False) for r in said if _repeats(r)]
     orders = [_WEAK[r.func](*r.args, evaluate=False) for r in said if r.func in _WEAK]
     orders += [sp.Eq(part, end, evaluate=False) for part, end in ends]
     sides = {side for order in orders for side in order.args if not side.has(sp.Limit)}
@@ -296,6 +299,26 @@ def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:
             facts.add(sp.Lt(sp.Abs(part - end), margin))
             facts |= {r.xreplace({part: end}) for r in orders if still | {part} >= {*r.args}}
     return frozenset(facts)
+
+
+def _speeds(order: Relational) -> bool:
+    """Return whether an inequality says that a rate exceeds a positive constant."""
+    if isinstance(order, sp.Eq) or not isinstance(order.gts, sp.Derivative):
+        return False
+    least = order.lts
+    return (
+        order.gts.variables == (t,)
+        and bool(least.is_positive)
+        and CLOCKS.isdisjoint(map(str, least.free_symbols))
+    )
+
+
+def _repeats(relation: sp.Basic) -> bool:
+    """Return whether a relation says that a field has the period T."""
+    sides = relation.args if isinstance(relation, sp.Eq) else (t, t)
+    return (
+        isinstance(sides[1], AppliedUndef) and sides[0] == sides[1].subs(t, t + _PERIOD) != sides[1]
+    )
 
 
 _WEAK = {relation: relation for relation in (sp.Eq, sp.Ge, sp.Le)} | {sp.Gt: sp.Ge, sp.Lt: sp.Le}
@@ -347,7 +370,10 @@ def replay_fault(judgement: Judgement) -> str | None:
     )
 
 
-def step_key(step: Judgement) -> Hashable:
+StepKey = tuple[Rule, tuple[Hypothesis, ...], Claim, tuple[Hashable, ...]]
+
+
+def step_key(step: Judgement) -> StepKey:
     """Return a key that equal steps share."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
     return (step.rule, step.hypotheses, step.claim, parents)

@@ -33,7 +33,9 @@ class Reason:
     """A condition of an equation, and a model that breaks it without this condition.
 
     ``model`` is in LaTeX, an equation each; ``where`` describes how the claim fails there; both
-    are empty where no model was found.  ``key`` is a hash of hypotheses and claim.
+    are empty where no model was found.  ``left`` is, in LaTeX, the domain that a quantity leaves
+    there, if the condition gives the claim a meaning instead.  ``key`` is a hash of hypotheses and
+    claim.
     """
 
     equation: str
@@ -42,6 +44,7 @@ class Reason:
     model: tuple[str, ...]
     where: str
     key: str
+    left: str = ""
 
 
 def table() -> tuple[Reason, ...]:
@@ -83,7 +86,9 @@ def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Rea
     broken = counterexample_without(statement, condition)
     model = tuple(map(inline, broken.model)) if broken else ()
     where = broken.where if broken else ""
-    return Reason(identifier, condition.brief, condition.latex, model, where, _key(statement))
+    left = inline(broken.left) if broken and broken.left is not None else ""
+    key = _key(statement)
+    return Reason(identifier, condition.brief, condition.latex, model, where, key, left)
 
 
 def main() -> None:

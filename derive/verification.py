@@ -11,7 +11,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import NamedTuple
@@ -19,7 +19,8 @@ from typing import NamedTuple
 from .catalogue import all_equations, equation
 from .check import Check, condition_checks, model_checks, step_checks
 from .equations import Equation, Status
-from .kernel import Judgement, step_key
+from .kernel import Judgement, StepKey, step_key
+from .rules.assumption import Assume
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class EquationVerdict:
 class Verification:
     """The outcome of the checks of many equations: by step, and the failures by equation."""
 
-    outcomes: Mapping[Hashable, tuple[Check, ...]]
+    outcomes: Mapping[StepKey, tuple[Check, ...]]
     failures: tuple[tuple[str, Check], ...]
     equations: int
 
@@ -53,6 +54,11 @@ class Verification:
     def steps(self) -> int:
         """Return the number of distinct steps that were checked."""
         return len(self.outcomes)
+
+    @property
+    def inferences(self) -> int:
+        """Return the number of steps that are no hypotheses: only these are tried on models."""
+        return sum(not isinstance(rule, Assume) for rule, *_ in self.outcomes)
 
     @property
     def checks(self) -> int:
@@ -71,8 +77,8 @@ class Task(NamedTuple):
     """
 
     equation: Equation
-    steps: Mapping[Hashable, Judgement]
-    stated: frozenset[Hashable]
+    steps: Mapping[StepKey, Judgement]
+    stated: frozenset[StepKey]
 
 
 class Outcome(NamedTuple):
@@ -85,7 +91,7 @@ class Outcome(NamedTuple):
 def tasks(equations: Sequence[Equation]) -> list[Task]:
     """Return a task for each equation; every step is in one of them alone."""
     stated = frozenset(step_key(s) for entry in equations for s in entry.statements)
-    seen: set[Hashable] = set()
+    seen: set[StepKey] = set()
     result = []
     for entry in equations:
         new = {key: step for step in entry.steps if (key := step_key(step)) not in seen}
@@ -114,7 +120,7 @@ def _catalogue() -> list[Task]:
     return tasks(all_equations())
 
 
-def _by_step(work: Sequence[Task], done: Sequence[Outcome]) -> dict[Hashable, tuple[Check, ...]]:
+def _by_step(work: Sequence[Task], done: Sequence[Outcome]) -> dict[StepKey, tuple[Check, ...]]:
     return {
         key: checks
         for task, outcome in zip(work, done, strict=True)

@@ -8,7 +8,7 @@ examples:
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from derive import terminal
@@ -16,7 +16,7 @@ from derive.command_line import Answer, Options, Parser, declare
 from derive.commands import arguments
 
 if TYPE_CHECKING:
-    from derive.kernel import Judgement
+    from derive.kernel import Judgement, StepKey
 
 _INDENT = " " * 5
 
@@ -41,7 +41,7 @@ def execute(options: Options) -> Answer:
     )
 
 
-def _row(step: Judgement, numbers: Mapping[Hashable, int]) -> dict[str, Any]:
+def _row(step: Judgement, numbers: Mapping[StepKey, int]) -> dict[str, Any]:
     import sympy as sp
 
     from derive.check import step_checks

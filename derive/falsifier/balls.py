@@ -27,8 +27,11 @@ ZERO = fmpq(0)
 NOTHING = arb(10) ** -200
 """A ball around 0 narrower than this, which only a higher precision gives, is 0."""
 
-_HALVINGS, _AGREEING = 24, arb(10) ** -12
-"""Greatest number of bisections of an interval of integration; relative tolerance of two rules."""
+_ORDERS, _HALVINGS, _AGREEING = (20, 32), 40, arb(10) ** -12
+"""Orders of two rules of integration; greatest number of bisections; relative tolerance."""
+_FALLING = arb("0.97")
+"""Ratio of the integrals next to a singularity, after and before a bisection, up to which it is
+taken to be integrable."""
 _HALVINGS_OF_ZERO = 60
 
 
@@ -158,21 +161,31 @@ CONSTANTS: dict[sp.Basic, Callable[[], arb]] = {
 def integral(function: Callable[[Number], arb], low: Number, high: Number) -> arb:
     """Integrate by Gauss-Legendre quadrature of two orders, with bisection until they agree.
 
-    The error is their difference.
+    The error is their difference.  Where they never agree, at a singularity ``|x|**-a``, the
+    integral over the interval next to it falls with each bisection by ``q = 2**(a - 1)``, and the
+    error of order n falls like ``n**(2 a - 2)``; UndecidedError if q is not clearly below 1.
     """
 
-    def total(a: Number, b: Number, halvings: int) -> arb:
+    def total(a: Number, b: Number, sizes: tuple[arb, ...] = ()) -> arb:
         half = (b - a) / 2
         coarse, fine = (
-            half * sum(weight * function(a + half * (1 + x)) for x, weight in _nodes(order))
-            for order in (20, 32)
+            [half * weight * function(a + half * (1 + x)) for x, weight in _nodes(order)]
+            for order in _ORDERS
         )
-        error = abs(fine - coarse).mid()
-        if halvings and error > fine.rad() and error > _AGREEING * abs(fine).mid():
-            return total(a, a + half, halvings - 1) + total(a + half, b, halvings - 1)
-        return fine + arb(0, error)
+        value = sum(fine, arb(0))
+        error = abs(value - sum(coarse, arb(0))).mid()
+        if error <= value.rad() or error <= _AGREEING * abs(value).mid():
+            return value + arb(0, error)
+        sizes = (*sizes, sum(map(abs, fine), arb(0)).mid())
+        if len(sizes) <= _HALVINGS:
+            return total(a, a + half, sizes) + total(a + half, b, sizes)
+        fall = (sizes[-1] / sizes[-9]) ** (arb(1) / 8)
+        if not fall < _FALLING:
+            raise UndecidedError("the integral may diverge")
+        orders = (arb(_ORDERS[1]) / _ORDERS[0]) ** (-2 * fall.log() / arb(2).log())
+        return value + arb(0, (error * max(arb(1), 2 / (orders - 1))).upper())
 
-    return total(low, high, _HALVINGS)
+    return total(low, high)
 
 
 @cache

@@ -391,16 +391,17 @@ def _function(varying: sp.Expr, seed: int) -> sp.Expr:
     shapes: list[sp.Expr] = [
         sp.S.One, s, wave, sp.exp(-s), 1 - sp.exp(-s), sp.log(1 + s), sp.sqrt(s), s + wave / 8,
         sp.exp(s), sp.tanh(s), 1 / (1 + s), s / (1 + s), sp.sin(sp.log(1 + s)), s**2, sp.S.Zero,
-        both, 1 + s, 2 + wave, s - sp.log(1 + s), sp.cos(2 * sp.pi * s),
+        both, 1 + s, 2 + wave, s - sp.log(1 + s), sp.cos(2 * sp.pi * s), s * sp.sin(s),
     ]  # fmt: skip
     shape = chance.choice(shapes)
     if varying == symbol("U_a"):  # the seed determines the kind of load
         loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, wave, 1 - sp.exp(-s), sp.sqrt(s),
                  sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), both, -s,
-                 s * wave)  # fmt: skip
+                 s * sp.sin(s), sp.sin(s))  # fmt: skip
         shape = loads[seed % len(loads)]
         size = U * sp.Rational(chance.choice(("1", "1", "1/2", "1", "-1", "2")))
     if varying.is_positive or varying.is_nonnegative:
         size = abs(size)
-        shape = chance.choice((1, 1 + s, 2 + wave, sp.exp(-s), 1 / (1 + s), sp.exp(s)))
+        shape = chance.choice((1, 1 + s, 2 + wave, sp.exp(-s), 1 / (1 + s), sp.exp(s),
+                               (1 + s) * (2 + sp.sin(s))))  # fmt: skip
     return size * shape

@@ -34,6 +34,8 @@ _NEAR, _FAR, _FARTHEST = 10**3, 10**5, 10**8
 """Numbers of periods after which trends are read: before rounding hides them; by default; to
 confirm a refusal."""
 
+_V = symbol("V")
+
 _DEEP = 40
 """Bound of the nesting of formulas in a model."""
 
@@ -212,14 +214,21 @@ class Model:
     def tends(self, expr: sp.Limit, end: arb) -> bool | None:
         """Return whether a limit has a value; None if its trend is not clear.
 
-        A refusal is confirmed at later times, and an open case is tried again at earlier ones:
-        at early times fields may not have left their start, at late ones rounding may hide them.
+        A refusal is confirmed at later times, or for faster wear if a load that goes on to vary
+        puts these out of reach; an open case is tried again at earlier times.  At early times
+        fields may not have left their start, at late ones rounding may hide them.
         """
         outcome = trend.tends_to(self._trend_values(expr, _FAR)[::2], end)
         if outcome or not self.states or expr.args[2] != sp.oo:
             return outcome
-        again = _NEAR if outcome is None else _FARTHEST
-        return trend.tends_to(self._trend_values(expr, again)[::2], end) or outcome
+        try:
+            values = self._trend_values(expr, _NEAR if outcome is None else _FARTHEST)
+        except UndecidedError:
+            if outcome is None or not self.values.get(_V, sp.nan).is_Rational:
+                raise
+            faster = self.with_datum(_V, 1000 * fraction(self.values[_V]))
+            values = faster._trend_values(expr, _FAR)
+        return trend.tends_to(values[::2], end) or outcome
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
         """Return the derivative of a constant with respect to one datum, all others held.

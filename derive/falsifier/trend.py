@@ -19,6 +19,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from flint import arb
 
@@ -58,11 +59,14 @@ def limit(windows: Sequence[Window]) -> arb:
     """Return the limit by Aitken's extrapolation, as a ball with the last correction as radius."""
     middles = [sum(window, arb(0)) / len(window) for window in windows[-3:]]
     spreads = [max(abs(v - m).mid() for v in w) for w, m in zip(windows[-3:], middles, strict=True)]
-    size = max(abs(v).mid() for v in windows[-1])
-    if spreads[-1] > _GROSS * size and spreads[-1] > arb("0.9") * spreads[-2]:
+    *earlier, size = (max(abs(v).mid() for v in window) for window in windows[-3:])
+    lasting = size >= arb("0.9") * max(earlier)  # values that decrease may tend to 0
+    turns = {a < b for a, b in pairwise(windows[-1])} == {True, False}
+    varies = turns and spreads[-1] > _GROSS * size and spreads[-1] > arb("0.9") * spreads[-2]
+    if lasting and varies:
         raise UndefinedError("no limit: the values go on to vary")
     step, before = (abs(b - a).mid() for a, b in ((middles[1], middles[2]), middles[:2]))
-    if step > _GROSS * size and step > arb("0.9") * before:
+    if lasting and step > arb("0.1") * size and step > arb("0.9") * before:
         raise UndefinedError("no finite limit")
     if step > _RESOLVED * size and step > arb("0.95") * before:
         raise UndecidedError("the values do not yet approach a limit")

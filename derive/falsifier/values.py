@@ -255,6 +255,9 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
         if right == 0 and isinstance(left, sp.Mul) and left.has(sp.Limit):
             zeros = (sp.Eq(factor, 0, evaluate=False) for factor in left.args)
             return fuzzy_or(holds_at(zero, moment) for zero in zeros)
+    strict = isinstance(relation, (sp.Gt, sp.Lt)) and relation.has(sp.Limit)
+    if strict and holds_at(sp.Eq(left, right, evaluate=False), moment):
+        return False  # the balls of the two sides would overlap
     terms = [[compiled(term)(moment) for term in sp.Add.make_args(side)] for side in (left, right)]
     gap = sum(terms[0], ZERO) - sum(terms[1], ZERO)
     if isinstance(gap, fmpq) or gap.is_zero() or not gap.contains(0):

@@ -14,12 +14,13 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 import sympy as sp
 from flint import fmpq
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 
 from ..claims import Asymptotic, Claim, FirstZero, Predicate, Property, SlowEquation, Term
 from ..hypotheses import Hypothesis
@@ -43,14 +44,20 @@ Relations = tuple[sp.Basic, ...]
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A model in which a claim fails: its drawn values as equations, and the failure."""
+    """A model in which a claim fails: its drawn values as equations, and the failure.
+
+    ``left`` is, instead of the claim, the domain that a quantity leaves, so that the model has no
+    value for it.
+    """
 
     model: tuple[sp.Eq, ...]
     where: str
+    left: sp.Basic | None = None
 
     def __str__(self) -> str:
         drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
-        return ": ".join(filter(None, (drawn, self.where)))
+        left = f"{self.left} fails".replace("(t)", "") if self.left is not None else ""
+        return ": ".join(filter(None, (drawn, left, self.where)))
 
 
 @dataclass(frozen=True)
@@ -101,10 +108,31 @@ def _tried(relations: Relations, claim: sp.Basic) -> TrialResult:
 def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
     """Return a model of all other hypotheses that breaks the claim, None if none is found.
 
-    None is no proof that the hypothesis is superfluous.
+    If none is found, the model may be one in which a quantity that the others determine leaves its
+    domain: the hypothesis then gives the claim a meaning.  None is no proof that the hypothesis is
+    superfluous.
     """
     relations, claim = _relations(judgement), _decidable(judgement.claim)
-    return falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
+    found = falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
+    left = (_leaving(stays, relations, dropped.relation) for stays in _domains(relations))
+    return found or next(filter(None, left), None)
+
+
+def _domains(relations: Relations) -> list[Relational]:
+    """Return the domains of quantities whose value or rate is the left side of an equation."""
+    sides = {h.lhs for h in relations if isinstance(h, sp.Eq) and not h.rhs.is_number}
+    known = {side.expr if isinstance(side, sp.Derivative) else side for side in sides}
+    found = (domain(q) for q in sorted(known, key=str) if q.is_Symbol or q.args == (t,))
+    return [stays for stays in found if stays is not None]
+
+
+def _leaving(stays: Relational, relations: Relations, dropped: sp.Basic) -> Counterexample | None:
+    """Return a model without a hypothesis in which a quantity leaves its domain."""
+    values = {h.lhs: h.rhs for h in relations if isinstance(h, sp.Eq)}
+    claim = stays.xreplace({stays.lhs: values.get(stays.lhs, stays.lhs)})
+    *free, without, claimed = (_without_domain(r, stays.lhs) for r in (*relations, dropped, claim))
+    found = falsify(free, claimed, _SEEDS, _SEEDS, without).counterexample
+    return found and replace(found, left=stays)
 
 
 def _relations(judgement: Judgement) -> Relations:

@@ -54,7 +54,8 @@ def _without(row: reasons.Reason) -> str:
     if not row.model:
         return f"- Without *{condition}*: no counterexample was found."
     model = ", ".join(f"${part}$" for part in row.model)
-    return f"- Without *{condition}* it fails for {model}: {row.where}."
+    verdict = f"has no meaning, as ${row.left}$ fails," if row.left else "fails"
+    return f"- Without *{condition}* it {verdict} for {model}: {row.where}."
 
 
 def symbols() -> str:

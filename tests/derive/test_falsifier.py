@@ -2,9 +2,13 @@
 
 import pytest
 import sympy as sp
+from flint import arb, fmpq
 
+from derive import catalogue
 from derive.claims import Drift, FirstZero, Oscillation
-from derive.falsifier.verdict import falsify
+from derive.falsifier import trend
+from derive.falsifier.balls import ZERO, UndecidedError, UndefinedError, integral
+from derive.falsifier.verdict import counterexample_without, falsify
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
 
@@ -178,3 +182,59 @@ def test_scaled_time_needs_no_clock():
     v, tau = sp.Function("v", real=True), symbols("tau")[0]
     given = (sp.Eq(u_c, h_0 * v(tau)), sp.Eq(initial("u_c"), 0))
     holds_but_not(given, sp.Eq(u_c**2, h_0**2 * v(tau) ** 2), sp.Eq(u_c, h_0 * v(tau) + 1))
+
+
+def test_a_slow_start_and_a_decay_by_fits_are_no_lack_of_a_limit():
+    for middles in ([6.483, 6.483, 6.482, 6.480, 6.440], [1, 0.1, 0.05, 0.3, 0.01]):
+        windows = [[arb(m * (1 - k * k / 1000)) for k in range(5)] for m in middles]
+        with pytest.raises(UndecidedError):
+            trend.limit(windows)
+    for values in ([1, 2, 4, 8, 16], [1, 2, 3, 4, 5]):
+        with pytest.raises(UndefinedError, match="no finite limit"):
+            trend.limit([[arb(v)] for v in values])
+    waves = [[arb(v) for v in (1, -1, 1, 0, -1)]] * 5
+    with pytest.raises(UndefinedError, match="vary"):
+        trend.limit(waves)
+
+
+def test_a_load_that_goes_on_to_vary_leaves_a_limit_refutable():
+    """Late times are then out of reach; faster wear confirms that the rate has no limit."""
+    (statement,) = catalogue.equation("14").statements
+    (bounded,) = (h for h in statement.conditions if h.brief == "|U_a| <= U")
+    broken = counterexample_without(statement, bounded)
+    assert "sin(t/T)" in str(broken)
+
+
+def test_a_condition_may_be_there_for_the_meaning_of_a_name():
+    """Without it no positive u_cum exists, so that the equation has no instance."""
+    (statement,) = catalogue.equation("20").statements
+    (grows,) = statement.conditions
+    broken = counterexample_without(statement, grows)
+    assert broken is not None
+    assert "u_cum > 0 fails" in str(broken)
+
+
+@pytest.mark.parametrize(
+    ("function", "value"),
+    [
+        (lambda x: arb(x) ** arb("-0.9"), 10),
+        (lambda x: 1 / arb(x).sqrt(), 2),
+        (lambda x: arb(x).log(), -1),
+        (lambda x: arb(x < fmpq(1, 3)), arb(1) / 3),
+    ],
+    ids=["power -9/10", "root", "logarithm", "step"],
+)
+def test_the_error_of_an_integral_to_a_singularity_bounds_it(function, value):
+    found = integral(function, ZERO, fmpq(1))
+    assert found.contains(value)
+    assert found.rad() < 1
+
+
+@pytest.mark.parametrize(
+    "function",
+    [lambda x: 1 / arb(x), lambda x: arb(x) ** arb("-1.1"), lambda x: 1 / (arb(x) - arb(1) / 3)],
+    ids=["inverse", "power -11/10", "pole inside"],
+)
+def test_a_divergent_integral_has_no_value(function):
+    with pytest.raises(UndecidedError, match="diverge"):
+        integral(function, ZERO, fmpq(1))

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.check import step_checks
 from derive.claims import Equality, Inequality
 from derive.equations import Equation
-from derive.hypotheses import ROUGHENING, Hypothesis
+from derive.hypotheses import PERIODIC, ROUGHENING, Hypothesis
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replay_fault
 from derive.rules.algebra import Insert, substitute
 from derive.rules.assumption import Assume, assume
@@ -17,12 +17,12 @@ from derive.rules.calculus import rigid
 from derive.rules.data import DataDerivative
 from derive.rules.inequalities import Arithmetic, Monotone
 from derive.rules.limits import Passes
-from derive.symbols import symbols
+from derive.symbols import rate, symbols
 from derive.time_limit import TimeLimitError, time_limit
 from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, supposed, tends
 from tests.derive.test_language import Positive
 
-h, f_c, h_0, q, L = symbols("h f_c h_0 q L")
+h, f_c, h_0, q, L, C, G, U_a, u_c = symbols("h f_c h_0 q L C G U_a u_c")
 FALSE = Equality(h_0, 2 * h_0)
 
 
@@ -216,6 +216,8 @@ def test_limits_of_time_may_be_nested() -> None:
         (tends(h, 0), ne(h, 0)),
         (tends(h, sp.oo), ge(h, h_0), tends(h - h_0, sp.oo)),
         (tends(h, h_0), eq(f_c * h, h_0), tends(f_c * h, h_0)),
+        (assume(PERIODIC), tends(U_a, h_0), tends(u_c, sp.oo)),
+        (ge(rate("u_c"), C), ge(u_c, h_0), gt(G, u_c)),
     ],
     ids=str,
 )

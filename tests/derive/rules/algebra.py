@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import Continuous, FirstZero
-from derive.hypotheses import Kind
+from derive.hypotheses import PERIODIC, Kind
 from derive.laws import EXPONENTIAL, TANH
 from derive.note.model import ARCHARD, CLOSURE, at_every_closure, contact
 from derive.note.model import START as STARTS
@@ -59,6 +59,7 @@ SIDES, WORN_AT = eq(h, u_a), u_c.subs(t, sigma)
 FALLING = lt(f_c, 0)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
+REPEATING = assume(PERIODIC)
 ABOVE, AT_ONE, EXACTLY_ONE = gt(h, f_c), eq(f_c, 1), eq(2 * f_c, 2)
 MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
 SPEED = Arithmetic(equal(T / q * rate("u_c"), T / q * C))(RATE)
@@ -236,6 +237,9 @@ FAMILIES = (
             tends(u_c, h_0)),
         "a wear without bound, and a bound": ("contradict", TRIVIAL, tends(u_c, sp.oo),
             le(sp.Abs(u_c), h_0)),
+        "a wear that grows at a rate, and a bound": ("contradict", TRIVIAL,
+            given(sp.Ge(rate("u_c"), C)), given(sp.Le(u_c, h_0))),
+        "a periodic load without bound": ("contradict", TRIVIAL, REPEATING, tends(U_a, sp.oo)),
         "two limits": ("contradict", TRIVIAL, tends(G, q), tends(G, 2 * q)),
         "a limit above a bound": ("contradict", TRIVIAL, tends(G, q), lt(G, 0)),
         "a limit above what falls": ("contradict", TRIVIAL, tends(G, sp.oo), tends(-G, h_0)),
