@@ -11,7 +11,6 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -19,19 +18,13 @@ from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 
 from wear.binding import bind
-from wear.equation import WearEquation
-from wear.inside import Chunk, fields_inside
-from wear.load import HistoryLoad, Load
-from wear.load.spans import span
-from wear.loss_of_contact.dense_output import switched_dense_output
+from wear.inside import Chunk, fields_of_stage, stages_with
+from wear.load import Load
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF
-from wear.numerics.gauss import FloatArray, Mesh, mesh, product
-from wear.orbit.period_map import period_map
-from wear.records import follow
+from wear.numerics.gauss import FloatArray, Mesh, mesh
 from wear.scene import Scene
 from wear.scene.notices import CONTACT_REACH
-from wear.states import fields_under_load
 
 NODES = 12  # on each interval
 INTERVALS = 32  # of a cycle, at least: pulses of a hundredth of the period are resolved
@@ -63,57 +56,19 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
     model = bind(scene)
     per_cycle = np.full((3, len(starts)), np.nan)
     rate = _wear_rate_per_pressure(model, scene)
-    for part, on in _sampled_cycles(model, scene, starts, rtol):
-        rows = np.searchsorted(starts, part.cycles)
-        periods = np.array([span(scene.load, int(cycle))[0].period for cycle in part.cycles])
-        per_cycle[:, rows] = _pressures(part, on, rate * periods, scene.given_load)
+    for stage in stages_with(model, scene.load, starts, rtol):
+        on = _mesh(stage.load)
+        phases = np.concatenate([on.edges, on.phases.ravel()])
+        for part in fields_of_stage(model, stage, starts, phases, rtol):
+            rows, per_pressure = np.searchsorted(starts, part.cycles), rate * stage.load.period
+            per_cycle[:, rows] = _pressures(part, on, per_pressure, scene.given_load)
     pressures[:, cycles > 0] = per_cycle[:, np.searchsorted(starts, cycles[cycles > 0] - 1.0)]
     return CyclePressures(*pressures)
 
 
-def _sampled_cycles(
-    model: Model, scene: Scene, starts: FloatArray, rtol: float
-) -> Iterator[tuple[Chunk, Mesh]]:
-    """Yield the state at the edges and then at the nodes of a mesh of the cycles that begin after
-    `starts` (n,) cycles."""
-    load = scene.load
-    if not isinstance(load, HistoryLoad):
-        on = _mesh(scene.loads.values())
-        for part in fields_inside(model, load, starts, _phases(on), rtol):
-            yield part, on
-        return
-    reached = follow(model, load, starts.astype(int).tolist(), rtol)
-    for start, wear, error in zip(reached.cycles, reached.u, reached.error, strict=True):
-        cycle = span(load, start).load
-        on = _mesh([cycle])
-        phases = _phases(on)
-        u = wear + _added(model, cycle, wear, on, rtol)
-        fields = fields_under_load(model, u, cycle(phases), cycle.slope(phases) / cycle.period)
-        of_cycle = np.array([start], dtype=float), phases, u, fields, np.array([error])
-        yield Chunk(*of_cycle), on
-
-
-def _added(model: Model, cycle: Load, wear: float, on: Mesh, rtol: float) -> FloatArray:
-    """Return the wear (1, m), mm, that a cycle of a measured history adds to `wear` (mm) up to the
-    edges and then the nodes of a mesh."""
-    start = np.array([[wear]])
-    if model.ends_at_3_sigma:
-        output = switched_dense_output(model, cycle, _phases(on), rtol)
-        return output.added(np.zeros(1), start[0]).increment
-    maps = period_map(WearEquation(model, (cycle,)), on.edges[None], len(on.rule.nodes))
-    run = maps.advance(start)
-    ends = np.cumsum(product(run.rate, on.rule.weights) * on.lengths, axis=-1)[:, 0]
-    return np.concatenate([np.zeros((1, 1)), ends, run.inside.reshape(1, -1)], axis=1)
-
-
-def _phases(on: Mesh) -> FloatArray:
-    """Return the edges and then the nodes of a mesh."""
-    return np.concatenate([on.edges, on.phases.ravel()])
-
-
-def _mesh(loads: Collection[Load]) -> Mesh:
-    """Return the intervals of a cycle, on which all loads are smooth."""
-    marks = {0.0, 1.0, *(x for load in loads for x in (*load.kinks, *load.peaks))}
+def _mesh(load: Load) -> Mesh:
+    """Return the intervals of a cycle, on which the load is smooth."""
+    marks = {0.0, 1.0, *load.kinks, *load.peaks}
     edges = np.unique(np.concatenate([sorted(marks), np.arange(INTERVALS) / INTERVALS]))
     keep = np.append(np.diff(edges) > SAME, True)
     return mesh(edges[keep], NODES if len(marks) <= MOST_KINKS else FEW_NODES)
@@ -146,10 +101,10 @@ def _sampled(values: FloatArray, over: Mesh) -> _OnMesh:
 
 
 def _pressures(
-    part: Chunk, over: Mesh, wear_per_pressure: FloatArray, given_load: bool
+    part: Chunk, over: Mesh, wear_per_pressure: float, given_load: bool
 ) -> CyclePressures:
     """Return peak, mean and contact fraction of cycles sampled at the edges and nodes;
-    `wear_per_pressure` is the wear of each (n,) over its mean pressure, mm/MPa. A given pressure is
+    `wear_per_pressure` is the wear of a cycle over its mean pressure, mm/MPa. A given pressure is
     smooth between the edges even where it vanishes."""
     fields, p = part.fields, _sampled(part.fields.p, over)
     touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
@@ -185,7 +140,7 @@ def _largest(values: FloatArray) -> FloatArray:
 
 
 def _mean(
-    part: Chunk, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_per_pressure: FloatArray
+    part: Chunk, p: _OnMesh, over: Mesh, rule_error: FloatArray, wear_per_pressure: float
 ) -> FloatArray:
     """Return the mean pressure (n,) in MPa from the wear of the cycle, or by the rule where its
     `rule_error` (n,) is smaller."""

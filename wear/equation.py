@@ -143,7 +143,7 @@ def breakpoints(load: Load) -> FloatArray:
     peaks, near which nodes should cluster; and the phases a quarter of the way from peak to peak,
     where a smooth pulse ends."""
     inner = {*load.kinks, *load.peaks}
-    if not load.kinks and load.minimum < load.maximum:
+    if load.peaks and not load.kinks and load.minimum < load.maximum:
         for peak, after in pairwise([*load.peaks, load.peaks[0] + 1.0]):
             quarter = (after - peak) / 4
             inner |= {(peak + quarter) % 1.0, (after - quarter) % 1.0}

@@ -6,9 +6,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wear.cycles import Stage, stages
-from wear.equation import WearEquation
-from wear.faults import AccuracyError, UsageError
+from wear.equation import WearEquation, breakpoints
+from wear.faults import AccuracyError
 from wear.load import HistoryLoad, Loading
+from wear.load.spans import span
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Model
 from wear.numerics.floating_point import TINY
@@ -16,7 +17,10 @@ from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import SAFETY
 from wear.orbit.dense_output import DenseOutput, dense_output
 from wear.orbit.iterates import Iterates
+from wear.orbit.segments import single_cycle
 from wear.quantities import columns_of
+from wear.records import follow
+from wear.scene_orbit import SceneOrbit
 from wear.states import fields_under_load, in_shape
 
 CHUNK = 32_000  # states computed at once: their arrays stay in the processor's cache
@@ -52,7 +56,7 @@ def fields_inside(
     Parameters
     ----------
     load
-        A periodic load, or blocks of such loads.
+        Any load.
     cycles
         Completed whole numbers of cycles (n,), each less than the load has.
     phases
@@ -66,21 +70,49 @@ def fields_inside(
     Raises
     ------
     AccuracyError
-        if the wear at the start of a block could not be computed.
-    UsageError
-        if the cycles cannot be counted.
+        if the wear at the start of a block, or of a cycle of a history, could not be computed.
     """
-    if isinstance(load, HistoryLoad):
-        raise UsageError("the load does not repeat: its cycles cannot be counted")
     cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
+    ends = 0.0
+    for stage in stages_with(model, load, cycles, rtol):
+        yield from fields_of_stage(model, stage, cycles, phases, rtol, chunk)
+        ends = stage.ends
+    if ends <= cycles[-1]:
+        raise AccuracyError(f"the wear after {ends:.0f} cycles could not be found")
+
+
+def stages_with(model: Model, load: Loading, cycles: FloatArray, rtol: float) -> Iterator[Stage]:
+    """Yield the stages of a load up to the last of the `cycles` (n,), which ascend; of a measured
+    history, each of its cycles is one, and only these are yielded."""
+    if not isinstance(load, HistoryLoad):
+        yield from stages(model, load, cycles[-1] + 1.0, rtol)
+        return
+    reached = follow(model, load, np.union1d(cycles, cycles + 1).astype(int).tolist(), rtol)
+    place = {cycle: at for at, cycle in enumerate(reached.cycles)}
+    for cycle in cycles.astype(int).tolist():
+        if cycle + 1 not in place:
+            return
+        acting, ends = span(load, cycle).load, [place[cycle], place[cycle + 1]]
+        wear, error = reached.u[ends], reached.u[ends] * reached.error[ends]
+        alone = single_cycle(wear, error, breakpoints(acting))
+        yield Stage(acting, cycle, cycle + 1.0, SceneOrbit(alone, None), 0.0)
+
+
+def fields_of_stage(
+    model: Model,
+    stage: Stage,
+    cycles: FloatArray,
+    phases: FloatArray,
+    rtol: float,
+    chunk: int = CHUNK,
+) -> Iterator[Chunk]:
+    """Yield the state at every phase (m,) of those of the `cycles` (n,) that are in a stage, about
+    `chunk` states at a time."""
     rows = max(1, chunk // max(1, len(phases)))
-    for stage in stages(model, load, cycles[-1] + 1.0, rtol):
-        for begin, end, output in _dense(model, stage, phases, rtol, cycles):
-            covered = cycles[(cycles >= begin) & (cycles < end)]
-            for at in range(0, len(covered), rows):
-                yield _chunk(model, stage, begin, output, covered[at : at + rows], phases, rtol)
-    if stage.ends <= cycles[-1]:
-        raise AccuracyError(f"the wear after {stage.ends:.0f} cycles could not be found")
+    for begin, end, output in _dense(model, stage, phases, rtol, cycles):
+        covered = cycles[(cycles >= begin) & (cycles < end)]
+        for at in range(0, len(covered), rows):
+            yield _chunk(model, stage, begin, output, covered[at : at + rows], phases, rtol)
 
 
 def _dense(

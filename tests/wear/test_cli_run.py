@@ -176,8 +176,10 @@ def test_everything_against_states_inside_the_cycles_is_told_at_once(run):
     scene = str(Path(__file__).parents[2] / "docs" / "examples" / "history.toml")
     status, _, messages = run(scene, *arguments)
     assert status == 2
-    for phrase in ("--output", "--method", "--time-limit", "does not repeat"):
+    for phrase in ("--output", "--method", "--time-limit"):
         assert phrase in messages
+    status, _, messages = run(scene, "--phases", "2", "--cycles", "2", "-o", "a.csv")
+    assert (status, "the load ends" in messages) == (2, True)
     status, _, messages = run("section4", *arguments, "--cycles", "many")
     assert (status, '"many": not a number of cycles' in messages) == (2, True)
 

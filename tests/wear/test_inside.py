@@ -2,6 +2,7 @@
 
 import tracemalloc
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from wear.equation import equation_of
 from wear.faults import UsageError
 from wear.inside import Chunk, fields_inside
 from wear.load import Block, Blocks, Constant, Harmonics, HistoryLoad, Sine, Table
+from wear.loss_of_contact.contact import wear_in_contact
 from wear.numerics.gauss import FloatArray
 from wear.numerics.initial_value import Rules, integrate
 from wear.orbit.period_map import PeriodMap, period_map
@@ -275,10 +277,45 @@ def test_other_phases_do_not_change_a_cycle_with_a_cutoff(scene: Scene) -> None:
     assert_allclose(found.fields.p[:, 0], ends.p[:3], rtol=1e-7)
 
 
-def test_what_cannot_be_counted_has_no_history_inside() -> None:
+@pytest.mark.parametrize("cutoff", [False, True])
+@pytest.mark.parametrize("k", [None, 1e5])
+def test_a_measured_history_of_equal_cycles_is_a_table(k: float | None, cutoff: bool) -> None:
+    table, number = made(1e-5, load=ZIGZAG, k=k, cutoff=cutoff), 4
+    times = [ZIGZAG.period * n + t for n in range(number) for t in ZIGZAG.times_s[1:]]
+    values = (ZIGZAG.values_mm[0], *(ZIGZAG.values_mm[1:] * number))
+    measured = replace(table, load=HistoryLoad((0.0, *times), values, ZIGZAG.period))
+    one, other = (history(scene, np.array([0.0, 3.0])) for scene in (table, measured))
+    assert_allclose(other.u, one.u, rtol=1e-11)
+    assert_allclose(other.fields.p, one.fields.p, rtol=1e-8, atol=1e-8)
+    assert np.all(other.error <= 1e-11)
+    with pytest.raises(UsageError, match="outside"):
+        history(measured, np.array([4.0]))
+
+
+def test_half_a_cycle_that_only_rises() -> None:
+    """One line has no kink, and no peak."""
     measured = replace(reference_scene("S2"), load=HistoryLoad((0.0, 1.0), (0.0, 1e-4), 0.5))
-    with pytest.raises(UsageError, match="counted"):
-        history(measured, np.array([1.0]))
+    assert np.all(np.diff(history(measured, np.array([1.0])).u) > 0.0)
+
+
+@pytest.mark.parametrize("k", [None, 1e5])
+def test_many_phases_cost_no_more_integrations(k: float | None, monkeypatch: Any) -> None:
+    """The cycle was cut at every phase."""
+    steps = []
+    counted = wear_in_contact
+
+    def count(*arguments: Any) -> Any:
+        steps.append(1)
+        return counted(*arguments)
+
+    monkeypatch.setattr("wear.loss_of_contact.period_map.wear_in_contact", count)
+    scene, at = made(1e-4, k=k, cutoff=True), []
+    for phases in (np.linspace(0.0, 1.0, 5), np.linspace(0.0, 1.0, 4001)):
+        steps.clear()
+        found = history(scene, np.array([0.0, 2.0]), phases)
+        at.append((len(steps), found.u[:, :: (len(phases) - 1) // 4]))
+    assert at[1][0] <= 4 * at[0][0]
+    assert_allclose(at[0][1], at[1][1], rtol=1e-12)
 
 
 def test_no_wear_inside_cycles_without_pressure() -> None:

@@ -115,21 +115,18 @@ def _methods() -> Sequence[str]:
 def _check_inside(options: Options, faults: Faults) -> None:
     """Add the faults of a request for states inside the cycles."""
     from wear.load.spans import most_cycles
-    from wear.request import obstacle
 
     if options.output is None or options.output.suffix not in _OF_PHASES:
         faults.append("--phases: name a .nc or .csv file with --output; there are too many states")
-    if options.method not in ("auto", "abel"):
-        faults.append("--phases: only the method abel has states inside cycles; drop --method")
+    if options.method != "auto":
+        faults.append("--phases: the load decides on the method; drop --method")
     for option in ("until-wear", "time-limit"):
         if getattr(options, option.replace("-", "_")) is not None:
             faults.append(f"--phases: does not go with --{option}; leave one of them out")
     if options.scene is None:
         return
-    against, most = obstacle(options.scene), most_cycles(options.scene.load)
-    if against is not None:
-        faults.append(f"--phases: cycles cannot be counted: {against}; leave --phases out")
-    elif max(options.cycles or (), default=0) >= most:
+    most = most_cycles(options.scene.load)
+    if max(options.cycles or (), default=0) >= most:
         faults.append(
             f"--cycles: the last cycle with phases begins after {most - 1}; the load ends"
         )
@@ -143,8 +140,10 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
     from wear.faults import Interrupted
     from wear.history_files import States, title_attribute, write
     from wear.inside import fields_inside
+    from wear.records import METHOD
+    from wear.request import obstacle
 
-    worst, done = 0.0, 0
+    worst, done, method = 0.0, 0, "abel" if obstacle(scene) is None else METHOD
 
     def parts() -> Iterator[States]:
         nonlocal worst, done
@@ -156,7 +155,7 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
     attributes = {
         "title": title_attribute(scene.title or scene.name),
         "scene": scene.to_json(),
-        "method": "abel",
+        "method": method,
         "rtol": repr(rtol),
     }
     try:
@@ -169,7 +168,7 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
         "file": str(output),
         "cycles": len(cycles),
         "phases": phases,
-        "method": "abel",
+        "method": method,
         "rtol": rtol,
         "largest_error_estimate": worst,
         "notices": list(scene.notices),

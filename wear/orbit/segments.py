@@ -20,7 +20,7 @@ from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import take
 from wear.orbit.batches import Batches
-from wear.orbit.iterates import NEARLY
+from wear.orbit.iterates import NEARLY, Iterates
 from wear.orbit.problem import Cost, Problem, Request, most_evaluations
 
 MOST_SEGMENTS = 40  # of a scene
@@ -195,6 +195,15 @@ def _segments(
         if not todo or cost.rhs_evaluations > most:
             break
     return segments, np.unique(np.concatenate(inaccurate)), cost
+
+
+def single_cycle(states: FloatArray, error: FloatArray, edges: FloatArray) -> Orbit:
+    """Return the orbit of one cycle of a scene with known `states` (2,) before and after, and their
+    `error`; the mesh of phase has `edges` (q + 1,)."""
+    zero, limit = np.zeros(1), np.full(1, np.inf)
+    none = np.empty((1, 0))
+    cycle = Iterates(states[None], error[None], None, None, none, limit, edges[None])
+    return Orbit(1, (Segment(np.zeros(1, dtype=np.intp), cycle, zero, zero, zero),), Cost(0, 0))
 
 
 def joined(orbits: Sequence[Orbit]) -> Orbit:
