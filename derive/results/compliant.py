@@ -62,7 +62,7 @@ class CompliantSteadyState(SteadyState):
         return Insert(claim)(*parents, name="wear rate")
 
     @cached_property
-    def deflected(self) -> Judgement:
+    def support(self) -> Judgement:
         """The deflection lies between 0 and p_max/k: by the law, or the premise p < p_max."""
         claim = sp.And(sp.Gt(U_c, 0), sp.Lt(U_c, p_max / k))
         deflection = self.model.deflection
@@ -70,11 +70,6 @@ class CompliantSteadyState(SteadyState):
             return Arithmetic(claim)(deflection, self.model.pressure)
         except RuleError:
             return Arithmetic(claim)(deflection, assume(UNSATURATED))
-
-    @property
-    def facts(self) -> tuple[Judgement, ...]:
-        """The premises of bounds of the closure ratio."""
-        return *super().facts, self.deflected
 
     @cached_property
     def pressure(self) -> Judgement:
@@ -88,7 +83,7 @@ class CompliantSteadyState(SteadyState):
         wear = Diverges(u_c)(self.growth, self.roughening)
         claim = sp.Eq(forever(u_c * (closure / roughness - 1 / f_c) + excess / f_c), 0)
         deviation = AtInfinity(claim, 1 / u_c)(wear, *self.facts)
-        near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.deflected)
+        near = first_order(self.rate_at_wear, deviation, self.ratio, self.rate, self.support)
         limit = Passes(sp.Eq(forever(U_c), p_inf / k))(self.model.deflection, self.steady)
         at_rest = near.claim.expr.subs(U_c, p_inf / k)
         return drift(Passes(sp.Eq(forever(at_rest), 0))(near, limit))

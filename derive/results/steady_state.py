@@ -3,12 +3,13 @@
 Overview
     One worn solid, contact law p = p_max phi(h/sigma) with phi positive, smooth and
     decreasing, roughness that grows (f_c > 0) from sigma_c0 > 0, load bounded by U.  No
-    periodicity is needed.  The ratio h/sigma differs from 1/f_c by exactly b/sigma, where
-    b = sigma_c0/f_c - h_0 + U_a is bounded.  So the ratio is bounded, the rate has a positive
-    lower bound, wear and roughness grow without bound, and the ratio tends to 1/f_c.
+    periodicity is needed.  The ratio h/sigma has an upper bound, which a rough pin only lowers;
+    so the rate has a positive lower bound, and wear and roughness grow without bound.  For a
+    smooth pin h/sigma differs from 1/f_c by exactly b/sigma, where b = sigma_c0/f_c - h_0 + U_a
+    is bounded, and so tends to 1/f_c.
 Key results
     SteadyState.deviation   h/sigma = 1/f_c - b/sigma, exactly
-    SteadyState.growth      u_c >= c t with an explicit c > 0
+    SteadyState.growth      u_c >= c t with an explicit c > 0, for a rough pin too
     SteadyState.ratio       h/sigma -> 1/f_c
     SteadyState.rate        du_c/dt -> K_c V p_max phi(1/f_c)/(3 H_c)
     SteadyState.pressure    p -> p_max phi(1/f_c)
@@ -26,7 +27,7 @@ from typing import ClassVar
 
 import sympy as sp
 
-from ..hypotheses import BOUNDED_LOAD, PERIODIC, ROUGHENING
+from ..hypotheses import BOUNDED_LOAD, PERIODIC, RIGID, ROUGHENING
 from ..kernel import Judgement, infer
 from ..laws import TANH, ContactLaw, r
 from ..note.condensed import CondensedProblem, bearing_only
@@ -40,7 +41,7 @@ from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from ..rules.limits import Passes, accumulates, forever, vanishes
 from ..symbols import rate, symbols
 
-h_0, U_a, u_c, p, U = symbols("h_0 U_a u_c p U")
+h, h_0, U_a, u_c, p, U, sigma = symbols("h h_0 U_a u_c p U sigma")
 sigma_c0, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 f_c p_max K_c H_c V")
 
 roughness = sigma_c0 + f_c * u_c
@@ -98,20 +99,33 @@ class SteadyState:
     @property
     def facts(self) -> tuple[Judgement, ...]:
         """The premises of bounds of the closure ratio."""
-        return self.roughening, assume(BOUNDED_LOAD), self.worn
+        return self.roughening, assume(BOUNDED_LOAD), self.worn, self.support
+
+    @cached_property
+    def support(self) -> Judgement:
+        """What is known of the deflection: the support is rigid."""
+        return assume(RIGID)
 
     @cached_property
     def highest_ratio(self) -> Judgement:
-        """h/sigma stays below a bound that holds for all time."""
-        claim = sp.Le(self.closure / roughness, 1 / f_c + self.bound / sigma_c0)
-        return Arithmetic(claim)(*self.facts, name="highest closure ratio")
+        """h/sigma stays below a bound that holds for all time, for a rough pin too."""
+        model = self.model
+        rougher = Arithmetic(sp.Ge(sigma, roughness))(
+            *(model.roughness, model.roughness_of_bearing, self.roughening, self.worn),
+            name="a rough pin adds roughness",
+        )
+        claim = sp.Le(h / sigma, 1 / f_c + self.bound / sigma_c0)
+        return Arithmetic(claim)(
+            *(model.closure, model.wear_of_pin, rougher, *self.facts), name="highest closure ratio"
+        )
 
     @cached_property
     def lowest_rate(self) -> Judgement:
         """The wear rate never falls below a positive constant."""
         bound = Monotone(wear_rate(self.law))(self.highest_ratio)
         claim = sp.Le(bound.claim.lesser, rate("u_c"))
-        return Consequence(claim)(bound, self.rate_at_wear, name="lowest wear rate")
+        parents = bound, self.model.wear_laws[2], self.model.pressure
+        return Consequence(claim)(*parents, name="lowest wear rate")
 
     @cached_property
     def growth(self) -> Judgement:

@@ -148,7 +148,13 @@ Ltac bounds :=
 Ltac below_logarithm :=
   match goal with |- ?a < ln _ => apply exp_lt_inv; pose proof (exp_pos a); rewrite exp_ln; lra end.
 
-Ltac arithmetic := first [lra | below_logarithm | bounds; solve [lra | positive | nra]].
+(** A part of a sum of squares is below its root. *)
+Ltac below_root :=
+  match goal with |- ?y <= sqrt (?x ^ 2 + _) =>
+    apply Rle_trans with (sqrt (y * y)); [rewrite sqrt_square by positive; lra |];
+    apply sqrt_le_1_alt; pose proof (pow2_ge_0 x); lra end.
+
+Ltac arithmetic := first [lra | below_logarithm | below_root | bounds; solve [lra | positive | nra]].
 
 (** ** Equal arguments of functions *)
 
@@ -344,7 +350,8 @@ Ltac ordered a b e :=
   | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra)
   | match goal with H : forall r r', r < r' -> ?f r' < ?f r |- _ =>
       assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
-        [lra | left; apply H; unfold Rdiv in *; lra]) end ];
+        [lra | left; apply H; unfold Rdiv in *; lra]) end
+  | assert (tanh b <= tanh a) by (apply tanh_order; unfold Rdiv in *; lra) ];
   rewrite ?tanh_opp in *; manifest e.
 
 (** ** Limits of expressions, part by part *)
