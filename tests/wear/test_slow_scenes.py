@@ -170,7 +170,7 @@ def test_a_trial_far_beyond_a_series_is_given_up():
     span = SeriesDomain(Coordinate(0.0), 1.0, 2.0, 1.0, 0.0)
     steep = np.array([[0.0, 500.0]])
     series = IncrementSeries(span, span.grid, np.ones(1), steep, np.zeros((1, 6)))
-    assert series.walk(3.0, 9.0, 5) == [3.0]
+    assert series.walk(3.0, 9.0, 5) == ([3.0], [])
 
 
 @settings(max_examples=4)

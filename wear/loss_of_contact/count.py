@@ -11,7 +11,7 @@ integrated at once, and corrected as in Newton's method.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from copy import copy
 from typing import NamedTuple
 
@@ -28,7 +28,6 @@ from wear.loss_of_contact.cycle_jumps import (
     with_error,
 )
 from wear.loss_of_contact.grazing import limit_wear_of
-from wear.loss_of_contact.increments import IncrementSeries, fitted
 from wear.loss_of_contact.period_map import switched_period_map
 from wear.loss_of_contact.plan import (
     BEYOND,
@@ -51,11 +50,11 @@ from wear.loss_of_contact.queries import (
 )
 from wear.loss_of_contact.samples import Samples
 from wear.loss_of_contact.switching import Edge
-from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, wear_ranges
+from wear.loss_of_contact.wear_ranges import AbelSolution, WearRange, ranges_by
 from wear.model import Model
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.orbit.iterates import Iterates
-from wear.orbit.period_map import MANY_DIGITS, settings
+from wear.orbit.period_map import settings
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit, Segment
 from wear.outcome import FADES, STOPS
@@ -72,7 +71,6 @@ FINER = 1e-2  # of the tolerance of a cycle: that of the finer cycle for its err
 MOST_PREDICTIONS = 16  # one after the other
 MOST_SAMPLES = 64  # cycles of a scene that are integrated at once
 _FIRST = np.zeros(1, dtype=np.intp)  # scene
-COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 
 
 class CountRequest(NamedTuple):
@@ -105,7 +103,7 @@ def count_scenes(
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
     fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
     counts = [_count(each, rtol, deadline) for each in requests]
-    answers: list[BatchSolver] = [frozen_cycles(coarse), _wear_ranges]
+    answers: list[BatchSolver] = [frozen_cycles(coarse), ranges_by(coarse)]
     answers += [cycles_by(coarse), cycles_by(fine)]
     counters = run_together(counts, answers, deadline + grace)
     parts = [part for counter in counters for part in counter.parts]
@@ -115,13 +113,6 @@ def count_scenes(
         _segments(counter, [next(found) for _ in counter.parts], each)
         for counter, each in zip(counters, requests, strict=True)
     ]
-
-
-def _wear_ranges(
-    _: list[int], known: list[tuple[list[IncrementSeries], CountProblem]]
-) -> Iterator[list[WearRange]]:
-    found = iter(wear_ranges([(series, problem) for some, problem in known for series in some]))
-    return ([next(found) for _ in some] for some, _ in known)
 
 
 def _count(request: CountRequest, rtol: float, deadline: float) -> Coroutine[_Counter]:
@@ -178,10 +169,8 @@ class _Counter:
             self.wear_ranges, self.planned_to = [], np.nextafter(self.wear, np.inf)
             return
         domains, self.planned_to = yield from plan_domains(problem, self.wear, cycles)
-        number = COEFFICIENTS if problem.rtol < MANY_DIGITS else FEWER_COEFFICIENTS
-        known, cost = yield from fitted(domains, number, problem.size.residual_tolerance / 2)
+        self.wear_ranges, cost = yield Query(WEAR_RANGES, (domains, problem))
         self.cost = self.cost.plus(*cost)
-        self.wear_ranges = yield Query(WEAR_RANGES, (known, problem))
 
     def _along(self, cycles: float) -> bool:
         """Count on the range with this wear, if there is one; return whether that led on."""
@@ -213,7 +202,7 @@ class _Counter:
         """Take single cycles until z passes `end`."""
         most = min(cycles, MOST_AT_ONCE)
         if self.predicted is not None and not here.series.domain.tends:
-            *before, last = here.series.walk(self.wear, end, most)
+            (*before, last), _ = here.series.walk(self.wear, end, most)
             if before:
                 self.wear, self.done = last, self.done + len(before)
                 self.last_added = last - before[-1]

@@ -61,11 +61,10 @@ CountPartIterates = Iterates | TabulatedIterates | UnresolvedIterates
 
 def walked(series: IncrementSeries, wear: float, end: float, most: float) -> SingleCycles:
     """Return the cycles on a series from a `wear` (mm) on, until z passes `end`, `most` at most."""
-    at = series.walk(wear, end, most)
-    added, z = np.diff(at), series.coordinate.at(np.array(at[:-1]))
-    error = relative_error([series], np.zeros(len(z), dtype=int), z) * added
+    at, error = series.walk(wear, end, most)
+    added = np.diff(at)
     growth = np.abs(1 + np.diff(added, append=added[-1:]) / (added + TINY))
-    return SingleCycles(at, added.tolist(), error.tolist(), growth.tolist())
+    return SingleCycles(at, added.tolist(), error, growth.tolist())
 
 
 def with_error(

@@ -11,13 +11,13 @@ evaluate the series.
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.queries import CYCLES, Coroutine, Query
+from wear.loss_of_contact.period_map import SwitchedPeriodMap
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray, product
@@ -25,7 +25,6 @@ from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.abel import Grid
 from wear.orbit.panels import CHECKS, SPLIT, near_checks
-from wear.orbit.problem import Cost
 
 MOST_ROUNDS = 6  # of cutting panels: those not resolved by then are discarded
 GRAIN = 16.0  # times the uncertainty of a distance: the rounding error of an increment
@@ -118,14 +117,16 @@ class IncrementSeries(NamedTuple):
         """Return the coordinate z of the domain."""
         return self.domain.coordinate
 
-    def walk(self, wear: float, end: float, most: float) -> list[float]:
+    def walk(self, wear: float, end: float, most: float) -> tuple[list[float], list[float]]:
         """Return the wear (mm) before and after each cycle from `wear` on, until z passes `end` or
-        the number of cycles exceeds `most`."""
+        the number of cycles exceeds `most`; and the error (mm) of each increment: the larger misfit
+        at the two CHECKS next to it."""
         origin, ahead, _ = self.coordinate
         power, scale, vanishes = self.domain.power, self.domain.scale, self.domain.vanishes
         starts, across = self.grid.starts.tolist(), self.grid.x_ends.tolist()
         series, level = [row[::-1] for row in self.series.tolist()], self.level.tolist()
-        walked, distance = [wear], origin - wear
+        checks, misfit = CHECKS.tolist()[1:-1], self.misfit.tolist()
+        walked, errors, distance = [wear], list[float](), origin - wear
         z = 1.0 / distance if ahead else -distance
         while z < end and len(walked) <= most:
             w = z**power
@@ -138,12 +139,15 @@ class IncrementSeries(NamedTuple):
             logarithm = last - before * twice / 2.0
             if not logarithm < FAR_BEYOND:
                 break
-            distance -= level[i] * w**vanishes * math.exp(logarithm)
+            added = level[i] * w**vanishes * math.exp(logarithm)
+            distance -= added
             if not math.isfinite(distance) or (ahead and distance <= 0.0):
                 break
             walked.append(origin - distance)
+            before_check = bisect_left(checks, twice / 2.0)
+            errors.append(max(misfit[i][before_check : before_check + 2]) * added)
             z = 1.0 / distance if ahead else -distance
-        return walked
+        return walked, errors
 
 
 def increments(fits: Sequence[IncrementSeries], which: IntArray, z: FloatArray) -> FloatArray:
@@ -182,39 +186,58 @@ def located(
     return panel, 2 * x / across[panel] - 1, w
 
 
+class _Fits(NamedTuple):
+    """Series on panels of the domains with the numbers `of` (p,), as in an `IncrementSeries`; and
+    the largest misfit of each over the permitted one, `excess` (p,)."""
+
+    of: IntArray
+    grid: Grid
+    level: FloatArray
+    series: FloatArray
+    misfit: FloatArray
+    excess: FloatArray
+
+
 def fitted(
-    domains: Sequence[SeriesDomain], number: int, tolerance: float
-) -> Coroutine[tuple[list[IncrementSeries], Cost]]:
-    """Fit the increments on every domain, with `number` coefficients on each panel, to a relative
-    `tolerance`: the panels of all domains at once; those that miss it are cut. Return a series for
-    each part of a domain on which the fit succeeds."""
-    grids = [domain.grid for domain in domains]
-    fitted_parts: list[list[IncrementSeries]] = [[] for _ in domains]
-    cost, t = Cost(0, 0), np.append(chebyshev_nodes(number), CHECKS)
-    vanishes = np.array([domain.vanishes for domain in domains])
+    domains: Sequence[SeriesDomain],
+    scene: IntArray,
+    cycle: SwitchedPeriodMap,
+    number: int,
+    tolerance: float,
+) -> tuple[list[list[IncrementSeries]], FloatArray]:
+    """Fit the increments on every domain of the scenes (n,), with `number` coefficients on each
+    panel, to a relative `tolerance`: the panels of all domains at once; those that miss it are cut.
+    Return the series of each domain, one for each part of it on which the fit succeeds; and its
+    cost (2, n): cycles and right-hand sides."""
+    cost, done = np.zeros((2, len(domains))), list[_Fits]()
+    if not domains:
+        return [], cost
+    t, of = np.append(chebyshev_nodes(number), CHECKS), np.arange(len(domains))
+    grid = stacked([domain.grid for domain in domains])
+    numbers = [(*each.coordinate[:2], each.uncertainty, *each[3:7:3]) for each in domains]
     for rounds in range(MOST_ROUNDS):
-        todo = [i for i, grid in enumerate(grids) if len(grid.starts)]
-        if not todo:
-            break
-        states = [grids[i].states(t) for i in todo]
-        of, w = np.repeat(todo, [len(part) for part in states]), np.concatenate(states)
-        wear = np.concatenate([domains[i].wear(part) for i, part in zip(todo, states, strict=True)])
-        run = yield Query(CYCLES, wear.ravel())
-        cost = cost.plus(wear.size, run.evaluations)
-        increment = run.increment.reshape(w.shape)
-        error = (run.error.reshape(w.shape) / increment)[:, number:]
-        fits = _series(increment / w ** vanishes[of, None], error)
-        excess = np.max(fits[-1] / _allowed(domains, of, wear[:, number:], tolerance), axis=1)
+        origin, ahead, uncertainty, power, vanishes = np.array(numbers)[of].T[..., None]
+        w = grid.states(t)
+        z = w ** (1.0 / power)
+        distance = np.where(ahead > 0.0, 1.0 / z, np.inf)
+        wear = origin + np.where(ahead > 0.0, -distance, z)
+        run = cycle.advance(wear.ravel(), np.repeat(scene[of], len(t)))
+        each = np.array([[len(t)], [run.evaluations / len(of)]])
+        cost += each * np.bincount(of, minlength=len(domains))
+        increment, error = run.increment.reshape(w.shape), run.error.reshape(w.shape)
+        fits = _series(increment / w**vanishes, (error / increment)[:, number:])
+        eased = tolerance * np.clip(origin / distance, 1.0, EASED)
+        allowed = np.maximum(eased, GRAIN * uncertainty / distance)[:, number:]
+        excess = np.max(fits[-1] / allowed, axis=1)
         coarse = ~(excess <= 1.0) & (rounds < MOST_ROUNDS - 1)
-        for i in todo:
-            series = IncrementSeries(domains[i], grids[i], *take(fits, of == i))
-            cut_again, far = coarse[of == i], excess[of == i]
-            fitted_parts[i].append(take(series, ~cut_again & (far <= USABLE)))
-            grids[i] = take(grids[i], cut_again)
-            if cut_again.any():
-                halves, far_off = cut(grids[i]), np.tile(far[cut_again] > FAR_OFF, 2)
-                grids[i] = stacked([take(halves, ~far_off), cut(take(halves, far_off))])
-    return [series for parts in fitted_parts for series in _joined(parts)], cost
+        done.append(take(_Fits(of, grid, *fits, excess), ~coarse & (excess <= USABLE)))
+        if not coarse.any():
+            break
+        halves, of = cut(take(grid, coarse)), np.tile(of[coarse], 2)
+        far = np.tile(excess[coarse] > FAR_OFF, 2)
+        grid = stacked([take(halves, ~far), cut(take(halves, far))])
+        of = np.concatenate([of[~far], np.tile(of[far], 2)])
+    return _joined(domains, stacked(done)), cost
 
 
 def _series(smooth: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -227,42 +250,35 @@ def _series(smooth: FloatArray, error: FloatArray) -> tuple[FloatArray, FloatArr
     return level, series, np.abs(values / smooth[:, number:] - 1.0) + error
 
 
-def _allowed(
-    domains: Sequence[SeriesDomain], of: IntArray, wear: FloatArray, tolerance: float
-) -> FloatArray:
-    """Return the permitted relative errors of the increments from each wear (p, n) on panels of the
-    domains with the numbers `of` (p,)."""
-    numbers = [(*domain.coordinate[:2], domain.uncertainty) for domain in domains]
-    origin, ahead, uncertainty = np.array(numbers)[of].T[..., None]
-    distance = np.where(ahead > 0.0, origin - wear, np.inf)
-    eased = tolerance * np.clip(origin / distance, 1.0, EASED)
-    return np.asarray(np.maximum(eased, GRAIN * uncertainty / distance))
-
-
-def _joined(parts: list[IncrementSeries]) -> list[IncrementSeries]:
-    """Return the series of a domain: one for each run of adjacent panels."""
-    fit = stacked(parts)
-    domain, grid = fit.domain, fit.grid
-    order = np.argsort(grid.starts)
-    starts, ends = grid.starts[order], grid.ends[order]
-    gaps = np.flatnonzero(starts[1:] > ends[:-1] * (1 + SAME)) + 1
-    joined, first, last = [], domain.grid.starts[0], domain.grid.ends[0]
-    for run in np.split(order, gaps) if len(order) else []:
-        panels = take(fit, run)
-        begin, end = np.sort(domain.wear(np.array([panels.grid.starts[0], panels.grid.ends[-1]])))
-        complete = [
-            panels.grid.starts[0] <= first + SAME * (first + domain.scale),
-            panels.grid.ends[-1] >= last - SAME * (last + domain.scale),
-        ]
-        from_start, to_end = complete if domain.power > 0.0 else complete[::-1]
-        tends = domain.tends and to_end
-        if tends:
-            panels = stacked([_to_limit(panels), panels])
-        begin = domain.start if from_start else float(begin)
-        end = domain.coordinate.origin if tends else domain.end if to_end else float(end)
-        part = domain._replace(start=begin, end=end, tends=tends)
-        joined.append(panels._replace(domain=part))
+def _joined(domains: Sequence[SeriesDomain], fits: _Fits) -> list[list[IncrementSeries]]:
+    """Return the series of each domain: one for each run of adjacent panels."""
+    fits = take(fits, np.lexsort((fits.grid.starts, fits.of)))
+    starts, ends = fits.grid.starts, fits.grid.ends
+    apart = (np.diff(fits.of) > 0) | (starts[1:] > ends[:-1] * (1 + SAME))
+    bounds = [0, *(np.flatnonzero(apart) + 1).tolist(), len(starts)] if len(starts) else []
+    joined: list[list[IncrementSeries]] = [[] for _ in domains]
+    for run in map(slice, bounds[:-1], bounds[1:]):
+        domain, panels = domains[fits.of[run.start]], take(fits[1:5], run)
+        joined[fits.of[run.start]].append(_completed(IncrementSeries(domain, *panels)))
     return joined
+
+
+def _completed(fit: IncrementSeries) -> IncrementSeries:
+    """Return a series on adjacent panels with its own part of the domain, up to a limit wear to
+    which that tends."""
+    domain, grid = fit.domain, fit.grid
+    first, last = domain.grid.starts[0], domain.grid.ends[0]
+    begin, end = np.sort(domain.wear(np.array([grid.starts[0], grid.ends[-1]])))
+    complete = [
+        grid.starts[0] <= first + SAME * (first + domain.scale),
+        grid.ends[-1] >= last - SAME * (last + domain.scale),
+    ]
+    from_start, to_end = complete if domain.power > 0.0 else complete[::-1]
+    tends = domain.tends and to_end
+    begin = domain.start if from_start else float(begin)
+    end = domain.coordinate.origin if tends else domain.end if to_end else float(end)
+    part = fit._replace(domain=domain._replace(start=begin, end=end, tends=tends))
+    return stacked([_to_limit(part), part]) if tends else part
 
 
 def _to_limit(fit: IncrementSeries) -> IncrementSeries:

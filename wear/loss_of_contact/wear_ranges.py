@@ -6,21 +6,32 @@ The ranges of all scenes are sampled, solved and counted together, as arrays.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from wear.loss_of_contact.arrest import LimitWear
-from wear.loss_of_contact.increments import EASED, IncrementSeries, cut, increments, step
+from wear.loss_of_contact.increments import (
+    EASED,
+    IncrementSeries,
+    SeriesDomain,
+    cut,
+    fitted,
+    increments,
+    step,
+)
+from wear.loss_of_contact.period_map import SwitchedPeriodMap
 from wear.loss_of_contact.plan import CountProblem
+from wear.loss_of_contact.queries import BatchSolver
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.iterates import CountTable, count_table
 from wear.orbit.panels import CHECKS
-from wear.orbit.period_map import Settings
+from wear.orbit.period_map import MANY_DIGITS, Settings
+from wear.orbit.problem import Cost
 
 WIDEST = 12.0  # panel of a count to a limit wear, in ln z: derivatives are smooth on it
 CALM = 24.0  # cycles that the distance to a grazing wear would last: then Abel's equation is solved
@@ -31,6 +42,7 @@ MOST_CUTS = 16  # rounds of cutting panels in two
 ENOUGH = 1.5  # cycles per coefficient of a panel
 SAME = 1e-9  # relative difference of two z that are one
 TOGETHER = 32  # series in one set of arrays
+COEFFICIENTS, FEWER_COEFFICIENTS = 32, 24  # of a panel of increments, for many and for few digits
 _FIRST, _LAST = slice(None, -1), slice(1, None)
 
 
@@ -75,27 +87,41 @@ class WearRange(NamedTuple):
 
 
 def alike(panels: Mapping[int, abel.Density]) -> list[list[int]]:
-    """Return the keys, grouped by the kind and the number of their panels."""
-    kinds: dict[object, list[int]] = {}
+    """Return the keys, grouped by the number of their panels."""
+    kinds: dict[int, list[int]] = {}
     for i, (grid, _) in panels.items():
-        kinds.setdefault((grid.c.any(), len(grid.c)), []).append(i)
+        kinds.setdefault(len(grid.c), []).append(i)
     return list(kinds.values())
 
 
-def wear_ranges(fits: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[WearRange]:
-    """Return the ranges of wear of some series, each with its solution of Abel's equation if it
-    takes many cycles."""
-    ranges: dict[int, WearRange] = {}
-    for shifted in (False, True):
-        kind = [i for i, (fit, _) in enumerate(fits) if (fit.coordinate.shift > 0.0) == shifted]
-        for at in range(0, len(kind), TOGETHER):
-            group = kind[at : at + TOGETHER]
-            ranges |= zip(group, _together([fits[i] for i in group]), strict=True)
-    return [ranges[i] for i in range(len(fits))]
+def ranges_by(cycle: SwitchedPeriodMap) -> BatchSolver:
+    """Return a solver for the ranges of wear on planned domains, with the cost of their cycles."""
+
+    def answer(
+        scenes: list[int], plans: list[tuple[list[SeriesDomain], CountProblem]]
+    ) -> Iterator[tuple[list[WearRange], Cost]]:
+        plan = np.repeat(np.arange(len(plans)), [len(domains) for domains, _ in plans])
+        domains, problem = [domain for some, _ in plans for domain in some], plans[0][1]
+        number = COEFFICIENTS if problem.rtol < MANY_DIGITS else FEWER_COEFFICIENTS
+        tolerance = problem.size.residual_tolerance / 2
+        fits, costs = fitted(domains, np.array(scenes)[plan], cycle, number, tolerance)
+        known = [(fit, plans[i][1]) for i, some in zip(plan, fits, strict=True) for fit in some]
+        found = [
+            each
+            for at in range(0, len(known), TOGETHER)
+            for each in _together(known[at : at + TOGETHER])
+        ]
+        for i in range(len(plans)):
+            own = [each for each, (_, of) in zip(found, known, strict=True) if of is plans[i][1]]
+            cycles, evaluations = np.sum(costs[:, plan == i], axis=1)
+            yield own, Cost(round(cycles), round(evaluations))
+
+    return answer
 
 
 def _together(fits: Sequence[tuple[IncrementSeries, CountProblem]]) -> list[WearRange]:
-    """Return the ranges of wear of series of one kind, all at once."""
+    """Return the ranges of wear of some series, each with its solution of Abel's equation if it
+    takes many cycles, all at once."""
     every, size = [series for series, _ in fits], fits[0][1].size
     begin, end = np.array([series.domain.ends for series in every]).T
     samples, numbers, calm = _samples(every, begin, end)

@@ -59,13 +59,16 @@ class Grid(NamedTuple):
 
     def x_of(self, y: FloatArray) -> FloatArray:
         """Return the coordinate x of y, (panels, k)."""
-        return y if self._without_scale else -np.expm1(-y)
+        return np.where(self.c[:, None] > 0.0, -np.expm1(-y), y)
+
+    def y_of(self, x: FloatArray) -> FloatArray:
+        """Return y at the coordinate x, (panels, k)."""
+        scaled = self.c[:, None] > 0.0
+        return np.where(scaled, -np.log1p(-x * scaled), x)
 
     def y_at(self, t: FloatArray) -> FloatArray:
         """Return y from the start of each panel at the positions `t` (k,) in [-1, 1]."""
-        x = self.x_ends[:, None] * ((t + 1) / 2)
-        y: FloatArray = x if self._without_scale else -np.log1p(-x)
-        return y
+        return self.y_of(self.x_ends[:, None] * ((t + 1) / 2))
 
     def states(self, t: FloatArray) -> FloatArray:
         """Return the states (panels, k) at the positions `t` (k,).
@@ -88,21 +91,15 @@ class Grid(NamedTuple):
         cycle that adds `increments` (panels, k)."""
         left = np.exp(-self.y_at(t))
         part = (left * increments / (self.starts + self.c)[:, None])[..., None] * parts
-        log = np.log1p(part)
-        if self._without_scale:
-            return np.asarray(log * (2 / self.x_ends)[:, None, None])
-        return np.asarray(-np.expm1(-log) * (2 / self.x_ends)[:, None, None] * left[..., None])
+        y, scaled = np.log1p(part), self.c[:, None, None] > 0.0
+        x = np.where(scaled, -np.expm1(-y), y) * (2 / self.x_ends)[:, None, None]
+        return np.asarray(x * np.where(scaled, left[..., None], 1.0))
 
     def cut(self, share: FloatArray | float) -> tuple[Grid, Grid]:
         """Return every panel cut in two, the first part a `share` of it in x."""
-        x = share * self.x_ends
-        first = x if self._without_scale else -np.log1p(-x)
+        first = self.y_of((share * self.x_ends)[:, None])[:, 0]
         middles = self.starts + (self.starts + self.c) * np.expm1(first)
         return self._replace(widths=first), Grid(self.c, middles, self.widths - first)
-
-    @property
-    def _without_scale(self) -> bool:
-        return not self.c.any()
 
 
 class Density(NamedTuple):
