@@ -84,18 +84,20 @@ import sys
 sys.modules.update(dict.fromkeys(("matplotlib", "math_core", "markdown_it")))
 from wear.cli import main
 assert main(["run", "section4", "--cycles", "1"]) == 0
-for arguments in (["report", "section4"], ["figure", "section4", "-o", "wear.svg"]):
+commands = ["reproduce"], ["report", "section4"], ["figure", "section4", "-o", "wear.svg"]
+for arguments in commands:
     try:
         main(arguments)
     except SystemExit as stop:
         assert stop.code == 2
+    assert "derive.results" not in sys.modules  # nothing is derived first
 """
     done = ended(sys.executable, "-c", code, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     needed = re.findall(
         r"needs the package (\w+): pip install 'derive-wear\[report\]'", done.stderr
     )
-    assert needed == ["markdown_it", "matplotlib"]
+    assert needed == ["matplotlib", "markdown_it", "matplotlib"]
     assert "Traceback" not in done.stderr
 
 

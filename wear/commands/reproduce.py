@@ -10,10 +10,11 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from derive import files, terminal
-from derive.command_line import Answer, Options, Parser
+from derive.command_line import OF_THE_REPORT, Answer, Options, Parser
 from wear import processes
 from wear.commands import arguments
 
@@ -31,6 +32,8 @@ def add_arguments(parser: Parser) -> None:
 def execute(options: Options) -> Answer:
     """Derive, verify, solve, decide the claims, and write the report."""
     arguments.read(options).stop_if_any()
+    for package in OF_THE_REPORT:  # before a derivation of seconds, not after it
+        import_module(package)
     folder, start = options.output, time.monotonic()
     command = f"wear reproduce -o {folder.name}"
     with terminal.busy("deriving the equations") as progress:
