@@ -2,6 +2,7 @@
 
 Key results
     equations_of    closure, roughness, contact law, wear, and all of them in one
+    opened          an equation of the catalogue for a pin whose wear opens the gap
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import replace
 
 from .equations import Equation
 from .hypotheses import RIGID
+from .kernel import Judgement
 from .laws import TANH
 from .rules.algebra import substitute
 from .rules.assumption import assume
@@ -53,3 +55,26 @@ def equations_of(variant: Variant, *, opening: bool) -> tuple[Equation, ...]:
         Equation(f"scene-{name}", "", title + f", by ({number})" * bool(number), (proved,))
         for name, (title, number, proved) in proofs.items()
     )
+
+
+_BY_SIGN = {
+    "two-solids-closure-ratio": "ratio",
+    "two-solids-rate": "rate",
+    "two-solids-log-drift": "drift",
+}
+
+
+def opened(printed: Equation) -> Equation:
+    """Return an equation of the catalogue for a pin whose wear opens the gap: with the definition
+    g = 1 + kappa instead of 1 - kappa, if it has one.
+
+    >>> from derive.catalogue import equation
+    >>> opened(equation("two-solids-rate")).definitions_latex[-1]
+    'g = 1 + \\kappa'
+    """
+    from .results.two_solids import TwoSolids
+
+    if printed.id not in _BY_SIGN:
+        return printed
+    proved: Judgement = getattr(TwoSolids(opening=True), _BY_SIGN[printed.id])
+    return replace(printed, statements=(proved,))

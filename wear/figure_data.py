@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wear.binding import bind
 from wear.faults import Faults
 from wear.fitting.readings import Specimen
 from wear.generated import reaction
@@ -206,7 +205,7 @@ def pressure_inside(scene: Scene, cycles: Sequence[int], rtol: float = 1e-6) -> 
     phases = np.union1d(np.linspace(0.0, 1.0, PHASES + 1), load.peaks)
     rows = [
         row
-        for part in fields_inside(bind(scene), load, np.unique(begin), phases, rtol)
+        for part in fields_inside(scene, np.unique(begin), phases, rtol)
         for row in zip(part.cycles, part.fields.p, strict=True)
     ]
     return [

@@ -1,15 +1,18 @@
 """The states inside cycles: the wear and the fields at any phases of any cycles."""
 
-from collections.abc import Iterator
+import os
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from wear.binding import bind
 from wear.cycles import Stage, stages
 from wear.equation import WearEquation, breakpoints
-from wear.faults import AccuracyError
+from wear.faults import AccuracyError, Faults
 from wear.load import HistoryLoad, Loading
-from wear.load.spans import span
+from wear.load.spans import most_cycles, span
 from wear.loss_of_contact.dense_output import SwitchedDenseOutput, switched_dense_output
 from wear.model import Model
 from wear.numerics.floating_point import TINY
@@ -20,6 +23,8 @@ from wear.orbit.iterates import Iterates
 from wear.orbit.segments import single_cycle
 from wear.quantities import columns_of
 from wear.records import follow
+from wear.request import check_rtol, is_number, whole_cycles
+from wear.scene import Scene, as_scene
 from wear.scene_orbit import SceneOrbit
 from wear.states import fields_under_load, in_shape
 
@@ -39,15 +44,15 @@ class Chunk(NamedTuple):
 
     def columns(self) -> dict[str, FloatArray]:
         """Return the quantities by their names in files, (n, m), the error (n,)."""
-        wear, error = {"bearing_wear_mm": self.u}, {"error_estimate": self.error}
-        return wear | columns_of(self.fields) | error
+        columns = {"bearing_wear_mm": self.u} | columns_of(self.fields)
+        columns["pressure_MPa"] = columns.pop("pressure_at_start_MPa")
+        return columns | {"error_estimate": self.error}
 
 
 def fields_inside(
-    model: Model,
-    load: Loading,
-    cycles: FloatArray,
-    phases: FloatArray,
+    scene: Scene | str | os.PathLike[str],
+    cycles: float | Iterable[float],
+    phases: ArrayLike,
     rtol: float = 1e-12,
     chunk: int = CHUNK,
 ) -> Iterator[Chunk]:
@@ -55,8 +60,8 @@ def fields_inside(
 
     Parameters
     ----------
-    load
-        Any load.
+    scene
+        The scene, or the name of a built-in one or of a file; with any load.
     cycles
         Completed whole numbers of cycles (n,), each less than the load has.
     phases
@@ -69,10 +74,32 @@ def fields_inside(
 
     Raises
     ------
+    UsageError
+        with all faults of the request, before the first chunk.
     AccuracyError
         if the wear at the start of a block, or of a cycle of a history, could not be computed.
     """
-    cycles, phases = np.sort(np.asarray(cycles, dtype=float)), np.asarray(phases, dtype=float)
+    scene, faults = as_scene(scene), Faults()
+    wanted = np.array(sorted(whole_cycles(cycles, faults)), dtype=float)
+    if (most := most_cycles(scene.load)) <= max(wanted, default=0.0):
+        faults.append(f"cycles: the load has {most}; the last one begins after {most - 1}")
+    try:
+        at = np.atleast_1d(np.asarray(phases, dtype=float))
+    except (TypeError, ValueError):
+        at = np.empty(0)
+    if at.ndim != 1 or not at.size or not np.all((at >= 0.0) & (at <= 1.0)):
+        faults.append("phases: give numbers from 0 to 1")
+    check_rtol(rtol, faults)
+    if not is_number(chunk) or not chunk >= 1:
+        faults.append(f"chunk: {chunk!r} is not a number of states, at least 1")
+    faults.stop_if_any()
+    return _chunks(bind(scene), scene.load, wanted, at, rtol, chunk)
+
+
+def _chunks(
+    model: Model, load: Loading, cycles: FloatArray, phases: FloatArray, rtol: float, chunk: int
+) -> Iterator[Chunk]:
+    """Yield the state at every phase of the `cycles`, which ascend."""
     ends = 0.0
     for stage in stages_with(model, load, cycles, rtol):
         yield from fields_of_stage(model, stage, cycles, phases, rtol, chunk)

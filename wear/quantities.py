@@ -85,6 +85,7 @@ COLUMNS: Mapping[str, Column] = {
     "pin_roughness_mm": Column("roughness of the pin", "sigma_a", r"\sigma_a"),
     "closure_mm": Column("closure of the mean surfaces", "h", "h"),
     "pressure_at_start_MPa": Column("contact pressure at the start of the next cycle", "p", "p"),
+    "pressure_MPa": Column("contact pressure"),
     "bearing_displacement_mm": Column("displacement of the bearing", "U_c", "U_c"),
     "pin_displacement_mm": Column("displacement of the pin", "U_a"),
     "peak_pressure_MPa": Column("largest pressure in the cycle"),

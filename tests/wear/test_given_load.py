@@ -112,7 +112,7 @@ def test_many_scenes_of_both_problems_go_together() -> None:
 def test_inside_a_cycle_the_wear_follows_the_force() -> None:
     scene = pressed(load=RAMP)
     phases = np.array([0.0, 0.2, 0.4, 1.0])
-    (part,) = fields_inside(bind(scene), scene.periodic_load, np.array([10.0]), phases)
+    (part,) = fields_inside(scene, 10, phases)
     assert part.fields.U_c is None  # the support is rigid
     share = np.array([0.0, 0.1, 0.4, 1.0])  # of the triangle's area
     assert part.u[0] == pytest.approx(archard(scene, 3000.0, 1) * (10.0 + share), rel=1e-12)

@@ -36,7 +36,7 @@ def scene_of(name: str) -> Scene:
 
 def history(scene: Scene, cycles: FloatArray, phases: FloatArray = PHASES) -> Chunk:
     """All chunks as one."""
-    parts = list(fields_inside(bind(scene), scene.load, cycles, phases))
+    parts = list(fields_inside(scene, cycles, phases))
     fields = [
         np.concatenate(column) for column in zip(*(part.fields for part in parts), strict=True)
     ]
@@ -83,8 +83,8 @@ def test_chunks_do_not_change_the_history() -> None:
     scene = reference_scene("S5")
     model, load = bind(scene), scene.periodic_load
     cycles = np.arange(0.0, 500.0, 7.0)
-    (whole,) = fields_inside(model, load, cycles, PHASES)
-    parts = list(fields_inside(model, load, cycles, PHASES, chunk=10 * len(PHASES)))
+    (whole,) = fields_inside(scene, cycles, PHASES)
+    parts = list(fields_inside(scene, cycles, PHASES, chunk=10 * len(PHASES)))
     assert len(parts) == 8
     # Another number of rows, another order of summation: the last digit may differ.
     assert_allclose(np.concatenate([part.u for part in parts]), whole.u, rtol=1e-15)
@@ -102,12 +102,12 @@ def test_the_interpolated_pressure_is_the_root(name: str) -> None:
 
 def test_memory_is_bounded_by_the_chunk() -> None:
     scene = reference_scene("S2")
-    model, load, phases = bind(scene), scene.periodic_load, np.linspace(0.0, 1.0, 50)
+    phases = np.linspace(0.0, 1.0, 50)
     peaks = []
     for number in (500, 500, 5_000):  # the first fills what is kept for good
         cycles = np.append(np.arange(number - 1.0), 5_000.0)  # as much to prepare
         tracemalloc.start()
-        for part in fields_inside(model, load, cycles, phases, chunk=1000):
+        for part in fields_inside(scene, cycles, phases, chunk=1000):
             assert part.u.shape == (20, 50)
         peaks.append(tracemalloc.get_traced_memory()[1] - 8 * number)
         tracemalloc.stop()
@@ -148,7 +148,7 @@ def test_very_fast_wear_inside_its_first_cycles(rtol: float, K: float, kind: str
     waves = (1.4e-3, 0.0, 7e-4)
     scene = made(K, 0.16, replace(Harmonics(0.0, (), (), 0.06), **{kind: waves}))
     cycles = np.array([0.0, 1.0, 2.0, 4.0, 5.0, 1e3])
-    parts = fields_inside(bind(scene), scene.load, cycles, PHASES, rtol)
+    parts = fields_inside(scene, cycles, PHASES, rtol)
     for part in parts:
         for row, error in zip(part.u, part.error, strict=True):
             true = np.max(np.abs(row - marched(scene, row[0]))) / row[-1]
@@ -182,9 +182,7 @@ def test_a_first_cycle_that_two_meshes_miss_alike(rtol: float) -> None:
     load = Constant(3.7e-6, 0.06)
     scene = made(3.1e-3, 1.1145, load, roughness=7.577e-5, closure=2.273e-4, pin=pin)
     cycles = np.array([0.0, 1e3, 1e9])
-    found, want = (
-        next(fields_inside(bind(scene), scene.load, cycles, PHASES, x)) for x in (rtol, 1e-13)
-    )
+    found, want = (next(fields_inside(scene, cycles, PHASES, x)) for x in (rtol, 1e-13))
     true = np.max(np.abs(found.u - want.u), axis=1) / want.u[:, -1]
     assert np.all(true <= found.error + want.error)
     assert np.all(found.error <= rtol)
@@ -288,7 +286,7 @@ def test_a_measured_history_of_equal_cycles_is_a_table(k: float | None, cutoff: 
     assert_allclose(other.u, one.u, rtol=1e-11)
     assert_allclose(other.fields.p, one.fields.p, rtol=1e-8, atol=1e-8)
     assert np.all(other.error <= 1e-11)
-    with pytest.raises(UsageError, match="outside"):
+    with pytest.raises(UsageError, match="the last one begins after 3"):
         history(measured, np.array([4.0]))
 
 
@@ -322,3 +320,26 @@ def test_no_wear_inside_cycles_without_pressure() -> None:
     found = history(made(closure=1.0), np.array([0.0, 1e6]))
     assert not found.u.any()
     assert not found.error.any()
+
+
+@pytest.mark.parametrize(
+    ("cycles", "phases", "names"),
+    [
+        ([np.nan], 0.5, ["cycles"]),
+        ([1.5, -1], [1.5], ["cycles", "cycles", "phases"]),
+        ([], [], ["cycles", "phases"]),
+        (1e13, [np.nan], ["cycles", "phases"]),
+        ("a", "a", ["cycles", "phases"]),
+        (1, [[0.5]], ["phases"]),
+    ],
+)
+def test_every_fault_of_a_request_is_named(cycles: Any, phases: Any, names: list[str]) -> None:
+    """They were silent, or endless, or errors of NumPy, and came with the first chunk."""
+    with pytest.raises(UsageError) as fault:
+        fields_inside("section4", cycles, phases)
+    assert [line.partition(":")[0] for line in str(fault.value).splitlines()] == names
+
+
+def test_one_cycle_and_one_phase_are_a_history() -> None:
+    (found,) = fields_inside("section4", 5, 0.5)
+    assert found.u.shape == (1, 1)

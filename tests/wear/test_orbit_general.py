@@ -105,3 +105,30 @@ def test_a_rate_that_is_noise_ends_the_search_for_digits():
     assert found.error[0] < 1e-12
     assert found.error[1] < 1e-7
     assert found.cost.rhs_evaluations < 1e8
+
+
+@pytest.mark.parametrize(
+    ("wrong", "names"),
+    [
+        ({"period": 0, "scale": -1.0}, ("period", "scale")),
+        ({"period": "1", "start": [0.0], "rtol": 0.0}, ("period", "start", "rtol")),
+        ({"scale": np.nan, "limit": -1.0, "rtol": 1.0}, ("scale", "rtol", "limit")),
+        ({"start": 2.0, "limit": 1.0}, ("start",)),
+        ({"breakpoints": [2.0]}, ("breakpoints",)),
+        ({"breakpoints": 0.5}, ("breakpoints",)),
+        ({"cycles": [1.5]}, ("cycles",)),
+        ({"cycles": [-1.0]}, ("cycles",)),
+        ({"cycles": []}, ("cycles",)),
+        ({"cycles": ["a"], "start": -1.0}, ("cycles", "start")),
+        ({"f": lambda *_: 1.0}, ("f",)),
+        ({"f": lambda u, t: np.nan * u * t}, ("f",)),
+        ({"f": lambda u, t: -1.0 + 0.0 * u * t}, ("f",)),
+    ],
+)
+def test_every_fault_of_a_request_is_named(wrong: dict, names: tuple[str, ...]) -> None:
+    """They were silent, or endless, or errors of NumPy."""
+    right = {"f": lambda u, t: np.exp(-u) + 0.0 * t, "cycles": 5, "period": 1.0, "scale": 1.0}
+    assert count_cycles(**right, start=0.0).u[0] == pytest.approx(np.log(6.0), rel=1e-9)
+    with pytest.raises(ValueError, match=names[0]) as fault:
+        count_cycles(**(right | {"start": 0.0} | wrong))
+    assert [line.partition(":")[0] for line in str(fault.value).splitlines()] == [*names]

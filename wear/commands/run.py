@@ -136,7 +136,6 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
     """Write the states inside the cycles, and return their number and accuracy."""
     import numpy as np
 
-    from wear.binding import bind
     from wear.faults import Interrupted
     from wear.history_files import States, title_attribute, write
     from wear.inside import fields_inside
@@ -147,8 +146,7 @@ def _inside(scene: Scene, cycles: Sequence[int], phases: int, rtol: float, outpu
 
     def parts() -> Iterator[States]:
         nonlocal worst, done
-        at, wanted = np.arange(phases) / phases, np.array(cycles, dtype=float)
-        for part in fields_inside(bind(scene), scene.load, wanted, at, rtol):
+        for part in fields_inside(scene, cycles, np.arange(phases) / phases, rtol):
             yield States(part.cycles, part.columns(), part.phases)
             worst, done = max(worst, float(np.max(part.error))), done + len(part.cycles)
 

@@ -65,6 +65,7 @@ def displacement_at(model: Model, wear: FloatArray) -> FloatArray:
     return np.asarray(-model.margin(wear, np.zeros_like(wear)))
 
 
+@np.errstate(divide="ignore")  # at the turning wear: the step is infinite, and clipped
 def wear_at(
     model: Model, displacement: FloatArray, guess: FloatArray, least: Bound, most: Bound
 ) -> FloatArray:

@@ -15,11 +15,13 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import numbers
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from wear.numerics.collocation import Tangent
 from wear.numerics.floating_point import ROUNDOFF, TINY
@@ -34,6 +36,15 @@ NOISE_STATES = 8  # from which the noise of a rate is estimated
 FEW_NODES = 8  # of phase, between breakpoints
 EARLIER = 1000  # numbers of cycles for a lower bound of states near their limit
 DIFFERENCE = 1e-6  # of the state and its scale: half the distance for a difference quotient
+MOST, LARGEST_RTOL = 1e12, 0.1  # cycles, and a relative accuracy
+_POSITIVE = "a positive number"
+_EXPECTED = {
+    "period": _POSITIVE,
+    "start": "zero or a positive number",
+    "scale": _POSITIVE,
+    "limit": _POSITIVE,
+    "rtol": f"a positive number up to {LARGEST_RTOL}",
+}
 
 
 class StatesAfter(NamedTuple):
@@ -97,7 +108,7 @@ class _General:
 
 def count_cycles(
     f: Rate,
-    cycles: Sequence[float],
+    cycles: ArrayLike,
     *,
     period: float,
     start: float,
@@ -113,7 +124,7 @@ def count_cycles(
     f
         The rate, for arrays of u and t that broadcast; not negative, smooth in u.
     cycles
-        Whole numbers, in any order.
+        Whole numbers up to 1e12, in any order, or one.
     start
         The state before the first cycle, not negative.
     scale
@@ -127,16 +138,66 @@ def count_cycles(
     limit
         States from here on have no meaning. If f vanishes here, no state goes beyond it, and one
         that is nearer to it than its own error is set to it.
+
+    Raises
+    ------
+    ValueError
+        with all faults of the request; if f gives no finite number at the start.
     """
+    given = {"period": period, "start": start, "scale": scale, "rtol": rtol, "limit": limit}
+    if faults := [*_faults(f, cycles, given, breakpoints)]:
+        raise ValueError("\n".join(faults))
     cuts = np.array([0.0, *(time / period for time in sorted(breakpoints)), 1.0])
     equation = _General(f, period, np.array([scale]), np.array([limit]), [cuts])
-    requested = np.asarray(cycles, dtype=float)[None]
+    requested = np.atleast_1d(np.asarray(cycles, dtype=float))[None]
     with np.errstate(all="ignore"):  # trial states far off the solution may overflow
         orbits = orbit(equation, np.max(requested, axis=1), rtol, np.array([start]), np.zeros(1))
         u, error = orbits.after(requested)
         if limit < np.inf and not np.any(equation.rate(np.array(limit), equation.some_phases)):
             u, error = _at_most(limit, u, error, requested, orbits)
     return StatesAfter(u[0], error[0], orbits.cost)
+
+
+def _faults(
+    f: Rate, cycles: ArrayLike, given: Mapping[str, float], breakpoints: Sequence[float]
+) -> Iterator[str]:
+    """Yield the faults of a request, each with its remedy."""
+    wanted = _finite(cycles)
+    if wanted.ndim > 1 or not wanted.size or np.any(wanted != np.clip(np.rint(wanted), 0, MOST)):
+        yield f"cycles: give whole numbers from 0 to {MOST:g}"
+    valid = {name: _positive(number) for name, number in given.items()}
+    valid["start"] |= given["start"] == 0.0
+    valid["limit"] |= given["limit"] == np.inf
+    valid["rtol"] = valid["rtol"] and given["rtol"] <= LARGEST_RTOL
+    wrong = [name for name in given if not valid[name]]
+    yield from (f"{name}: {given[name]!r} is not {_EXPECTED[name]}" for name in wrong)
+    if wrong:
+        return
+    if given["start"] > given["limit"]:
+        yield f"start: {given['start']!r} is beyond the limit"
+    cuts, period = _finite(breakpoints), given["period"]
+    if cuts.ndim != 1 or not np.all((cuts > 0.0) & (cuts < period)):
+        yield "breakpoints: give a list of times between 0 and the period"
+    u, t = np.full((2, 1), float(given["start"])), np.array([0.0, 0.5, 1.0]) * period
+    with np.errstate(all="ignore"):
+        rate = np.asarray(f(u, t))
+    if rate.shape != (2, 3) or not np.all(np.isfinite(rate)):
+        yield "f: give a finite rate for each of u and t, arrays that broadcast"
+    elif np.any(rate < 0.0):
+        yield "f: is negative at the start"
+
+
+def _positive(given: object) -> bool:
+    return isinstance(given, numbers.Real) and 0.0 < float(given) < np.inf
+
+
+def _finite(given: Any) -> FloatArray:
+    """Return a number or numbers as an array, NaN where they are none."""
+    try:
+        array = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        return np.array([np.nan])
+    return np.where(np.isfinite(array), array, np.nan)
 
 
 def _at_most(

@@ -16,7 +16,7 @@ from derive.note.governing import Pin
 from derive.own_law import own_law
 from derive.symbols import QUANTITIES
 from derive.variant import Variant
-from derive.variant_equations import equations_of
+from derive.variant_equations import equations_of, opened
 from wear import figures
 from wear.faults import AccuracyError, UsageError
 from wear.figure_data import (
@@ -149,7 +149,8 @@ def _equations(scene: Scene, limit: Asymptote | None) -> list[derived.Equation]:
         "cutoff": key.ends_at_3_sigma, "regime": _regime(scene, limit), "load": _kind(scene),
     }  # fmt: skip
     model = equations_of(variant, opening=opening)
-    return [*model, *(equation(identifier) for identifier in holding(chosen))]
+    long_run = [equation(identifier) for identifier in holding(chosen)]
+    return [*model, *(map(opened, long_run) if opening else long_run)]
 
 
 def _regime(scene: Scene, limit: Asymptote | None) -> str:
