@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import gc
 import os
 import re
 import sys
@@ -142,8 +143,10 @@ def main(
 ) -> int:
     """Execute the command that the arguments name; return the exit status.
 
-    SymPy's cache gets 20000 entries: a derivation exceeds the default of 1000.
+    SymPy's cache gets 20000 entries: a derivation exceeds the default of 1000.  Of millions of
+    expressions hardly any is garbage, so that the collector runs rarely.
     """
+    gc.set_threshold(200_000, 50, 100)
     os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
     words = sys.argv[1:] if arguments is None else list(arguments)
 

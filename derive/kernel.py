@@ -264,12 +264,13 @@ def _require_model(hypotheses: tuple[Hypothesis, ...]) -> None:
 
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
-    """Return the hypotheses in contact, also at all times in them, and for rates."""
+    """Return the hypotheses in contact, also at all times in them, at extremes, and for rates."""
     now = [h.relation for h in hypotheses]
     pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
     fields = frozenset[sp.Basic]().union(*(relation.atoms(AppliedUndef) for relation in now))
     times = frozenset(f.args[0] for f in fields if f.func.__name__ in QUANTITIES) | {sp.S.Zero}
-    implied = (said for relation in now for said in _implied(relation, times - {t}))
+    times = times.union(*map(_extremes, now)) - {t}
+    implied = (said for relation in now for said in _implied(relation, times))
     return frozenset((*pressed, *now, *implied, sp.Gt(t, 0)))
 
 
@@ -325,11 +326,24 @@ _WEAK = {relation: relation for relation in (sp.Eq, sp.Ge, sp.Le)} | {sp.Gt: sp.
 
 
 @cache
+def _extremes(relation: sp.Basic) -> frozenset[sp.Expr]:
+    """Return the first times at which the sines of time in a relation are 0, 1 and -1."""
+    phases = {wave.args[0]: wave.args[0].diff(t) for wave in relation.atoms(sp.sin, sp.cos)}
+    turning = (rate for phase, rate in phases.items() if phase == rate * t and rate.is_positive)
+    return frozenset(part * sp.pi / (2 * rate) for rate in turning for part in (1, 2, 3))
+
+
+@cache
 def _implied(relation: sp.Basic, times: frozenset[sp.Basic]) -> tuple[sp.Basic, ...]:
     """Return a relation between fields at other times, and between their rates."""
     fields = relation.atoms(AppliedUndef)
-    other = relation.has(sp.Derivative, sp.Integral, sp.Limit) or {f.args for f in fields} != {(t,)}
-    if other or any(free.name in CLOCKS - {"t"} for free in relation.free_symbols):
+    unsuited = relation.has(sp.Derivative, sp.Integral, sp.Limit)
+    instants = {f.args for f in fields}
+    if (
+        unsuited
+        or not {(t,)} <= instants <= {(t,), (0,)}
+        or any(free.name in CLOCKS - {"t"} for free in relation.free_symbols)
+    ):
         return ()
     then = (relation.subs(t, time) for time in times)
     if isinstance(relation, sp.Eq) and fields <= WEARING:

@@ -80,14 +80,23 @@ def _refuted(facts: frozenset[sp.Basic], goal: sp.Basic | None = None) -> bool:
     translated = z3.BoolVal(False) if goal is None else translator.relation(goal)
     if translated is None:
         return False
-    parts = {part for fact in facts if not fact.has(sp.zoo) for part in certain(fact)}
-    implied = facts.union(*map(implied_by, parts))
+    implied = facts.union(*map(_supposed, facts))
     if sp.false in implied:
         return True
-    given = (translator.relation(fact) for fact in sorted(implied, key=str))
+    given = (translator.relation(fact) for fact in sorted(implied, key=_text))
     known = [relation for relation in given if relation is not None]
     solver.add(*known, *translator.known, z3.Not(translated))
     return bool(solver.check() == z3.unsat)
+
+
+_text = cache(str)
+
+
+@cache
+def _supposed(fact: sp.Basic) -> frozenset[sp.Basic]:
+    """Return what holds wherever a fact is defined."""
+    parts = () if fact.has(sp.zoo) else certain(fact)
+    return frozenset(relation for part in parts for relation in implied_by(part))
 
 
 def _relevant(goal: sp.Basic, facts: frozenset[sp.Basic]) -> frozenset[sp.Basic]:

@@ -172,13 +172,13 @@ def _fitting(
 
     It is the last one tried if none of them does.
     """
-    others = {known: value for known, value in values.items() if known in quantities(known)}
     about = [
         relation
         for relation in relations
         if quantity in quantities(relation)
         and not any(q.args for q in quantities(relation) - {quantity})
     ]
+    others = {known: value for known, value in values.items() if known in quantities(known)}
     for attempt in range(12 if about else 1):
         value = _draw(quantity, seed + 97 * attempt)
         if quantity.subs(t, 0) in values:
@@ -360,6 +360,7 @@ def slides_fast(seed: int) -> bool:
     return seed % WILD == 3
 
 
+@cache
 def _draw(quantity: sp.Expr, seed: int) -> sp.Expr:
     """Draw a number or a random function of time."""
     return (_function if quantity.args else _value)(quantity, seed)

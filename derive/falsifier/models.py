@@ -10,7 +10,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 
@@ -33,6 +33,8 @@ _LATE = (10**2, 3 * 10**5)
 _NEAR, _FAR, _FARTHEST = 10**3, 10**5, 10**8
 """Numbers of periods after which trends are read: before rounding hides them; by default; to
 confirm a refusal."""
+_APART, _CLOSE, _LAST = (0, 2, 4), (1, 2, 3, 4), (4,)
+"""Windows, of five, for the verdict on a limit, for its value, and for the last value."""
 
 _V = symbol("V")
 
@@ -86,7 +88,7 @@ class Model:
     def __post_init__(self) -> None:
         self._known: dict[object, Number] = {}
         self._formulas: dict[tuple[sp.Expr, int], sp.Expr] = {}
-        self._windows: dict[tuple[sp.Limit, int], list[list[arb]]] = {}
+        self._windows: dict[tuple[sp.Limit, int, int], list[arb]] = {}
 
     @cached_property
     def states(self) -> dict[sp.Expr, int]:
@@ -203,13 +205,13 @@ class Model:
     def limit(self, expr: sp.Limit) -> arb:
         """Return a limit with an error from its trend, at the latest times that resolve it."""
         try:
-            return trend.limit(self._trend_values(expr, _FARTHEST))
+            return trend.limit(self._trend_values(expr, _FARTHEST, _CLOSE))
         except UndecidedError:
-            return trend.limit(self._trend_values(expr, _FAR))
+            return trend.limit(self._trend_values(expr, _FAR, _CLOSE))
 
     def latest(self, expr: sp.Limit) -> arb:
         """Return the last value of the trend of a limit."""
-        return self._trend_values(expr, _FAR)[-1][-1]
+        return self._trend_values(expr, _FAR, _LAST)[-1][-1]
 
     def tends(self, expr: sp.Limit, end: arb) -> bool | None:
         """Return whether a limit has a value; None if its trend is not clear.
@@ -218,17 +220,17 @@ class Model:
         puts these out of reach; an open case is tried again at earlier times.  At early times
         fields may not have left their start, at late ones rounding may hide them.
         """
-        outcome = trend.tends_to(self._trend_values(expr, _FAR)[::2], end)
+        outcome = trend.tends_to(self._trend_values(expr, _FAR, _APART), end)
         if outcome or not self.states or expr.args[2] != sp.oo:
             return outcome
         try:
-            values = self._trend_values(expr, _NEAR if outcome is None else _FARTHEST)
+            values = self._trend_values(expr, _NEAR if outcome is None else _FARTHEST, _APART)
         except UndecidedError:
             if outcome is None or not self.values.get(_V, sp.nan).is_Rational:
                 raise
             faster = self.with_datum(_V, 1000 * fraction(self.values[_V]))
-            values = faster._trend_values(expr, _FAR)
-        return trend.tends_to(values[::2], end) or outcome
+            values = faster._trend_values(expr, _FAR, _APART)
+        return trend.tends_to(values, end) or outcome
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
         """Return the derivative of a constant with respect to one datum, all others held.
@@ -256,22 +258,22 @@ class Model:
         """Return the model with one datum changed."""
         return Model({**self.values, datum: sp.Rational(int(value.p), int(value.q))})
 
-    def _trend_values(self, expr: sp.Limit, far: int) -> list[list[arb]]:
+    def _trend_values(self, expr: sp.Limit, far: int, places: Sequence[int]) -> list[list[arb]]:
         """Return the values of an expression in windows towards the point of its limit."""
-        key = (expr, far)
-        if key not in self._windows:
-            inside, variable, point, _ = expr.args
-            with ctx.workprec(BITS):
-                value = compiled(inside)
-                if variable == t:
-                    self._windows[key] = [
-                        [ball(value(Moment(self, at))) for at in window]
-                        for window in self._ladder(point, far)
-                    ]
-                else:
-                    moved = (self.with_datum(variable, at) for at in _towards(point))
-                    self._windows[key] = [[ball(value(Moment(m, self.period)))] for m in moved]
-        return self._windows[key]
+        for place in places:
+            key = (expr, far, place)
+            if key not in self._windows:
+                with ctx.workprec(BITS):
+                    self._windows[key] = self._window_values(expr, far, place)
+        return [self._windows[expr, far, place] for place in places]
+
+    def _window_values(self, expr: sp.Limit, far: int, place: int) -> list[arb]:
+        inside, variable, point, _ = expr.args
+        value = compiled(inside)
+        if variable == t:
+            return [ball(value(Moment(self, at))) for at in self._ladder(point, far)[place]]
+        moved = self.with_datum(variable, _towards(point)[place])
+        return [ball(value(Moment(moved, self.period)))]
 
     def _ladder(self, point: sp.Expr, far: int) -> list[list[fmpq]]:
         """Return windows of times; towards infinity they end where the fields are known."""
@@ -284,7 +286,7 @@ class Model:
         if periods > far / 2:  # the logarithms of the times form a geometric sequence
             powers = [0.5 ** (k / 2) for k in (4, 3, 2, 1, 0)]
             return [self._window(int(periods**power), power) for power in powers]
-        if periods < 25 or far == _FARTHEST:
+        if periods < 30 or far == _FARTHEST:
             raise UndecidedError("the fields are not known for long enough")
         return [self._window(int(periods / 2**k)) for k in (4, 3, 2, 1, 0)]
 
@@ -300,6 +302,7 @@ def _towards(point: sp.Expr) -> list[fmpq]:
     return [fraction(point) + 1 / step for step in steps]
 
 
+@cache
 def slope_between_jumps(expr: sp.Expr) -> sp.Expr:
     """Return the derivative in time between jumps."""
     steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import Continuous, FirstZero
-from derive.hypotheses import PERIODIC, Kind
+from derive.hypotheses import PERIODIC, SINE, Kind
 from derive.laws import EXPONENTIAL, TANH
 from derive.note.model import ARCHARD, CLOSURE, at_every_closure, contact
 from derive.note.model import START as STARTS
@@ -244,6 +244,8 @@ FAMILIES = (
         "a limit above a bound": ("contradict", TRIVIAL, tends(G, q), lt(G, 0)),
         "a limit above what falls": ("contradict", TRIVIAL, tends(G, sp.oo), tends(-G, h_0)),
         "a constant load that rises with time": ("contradict", TRIVIAL, CONSTANTLY, eq(U_a, C * t)),
+        "a constant sine": ("contradict", TRIVIAL, CONSTANTLY, assume(SINE)),
+        "a sine above zero": ("contradict", TRIVIAL, ge(U_a, 0), assume(SINE)),
         "a rough pin that is smooth": ("contradict", equal(h, h_0),
             called(STARTS[3], Kind.INITIAL), SMOOTH_PIN, eq(h, h_0)),
     }),
