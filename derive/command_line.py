@@ -183,9 +183,9 @@ def _parsed(whole: argparse.ArgumentParser, words: Sequence[str]) -> argparse.Na
     options, unknown = whole.parse_known_args(words)
     branch = options.branch
     if unknown:
-        wrong = [word for word in unknown if word.startswith("-")] or unknown
+        wrong = [word for word in unknown if word.startswith("-")]
         hints = (f"{word}: not understood{_suggestion(word, _options(branch))}" for word in wrong)
-        branch.error("\n".join(hints))
+        branch.error("\n".join(hints) or f"{' '.join(unknown)}: more than this command takes")
     if twice := [name for action in branch._actions if (name := _repeated(action, words))]:
         branch.error("\n".join(f"{name}: given more than once; keep one" for name in twice))
     return options

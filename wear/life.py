@@ -23,7 +23,7 @@ from wear.load.spans import most_cycles
 from wear.numerics.gauss import FloatArray
 from wear.quantities import MOST_CYCLES
 from wear.regime import Asymptote, asymptote
-from wear.request import check_rtol, obstacle, wear_depths
+from wear.request import ONE_PERIOD, check_rtol, obstacle, wear_depths
 from wear.resampling import resampled
 from wear.scene import Scene, as_scene
 from wear.solver import solve
@@ -93,7 +93,7 @@ def cycles_until(
     depths = wear_depths(wear_mm, faults)
     check_rtol(rtol, faults)
     if (against := obstacle(scene)) is not None:
-        faults.append(f"cycles cannot be counted: {against}")
+        faults.append(f"cycles cannot be counted: {against}; {ONE_PERIOD}")
     faults.stop_if_any()
     fewer, model = resampled(scene, rtol), bind(scene)
     counted = engine.first_passage(model, fewer.scene.load, np.array(depths), rtol - fewer.error)

@@ -227,6 +227,14 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     found = offset(case.scene, per_cycle, float(mean))
     if found is None:
         notices = (*notices, "offset unknown: 1e12 cycles do not reach steady wear")
+    if per_cycle == 0.0:
+        said = f"wear goes on, if under a pressure of {pressure:.3g} MPa: shown as 0"
+        notices = (*notices, said)
+    until = [_cycles(abs(mean), per_cycle), _cycles(max(map(abs, extremes)), per_cycle)]
+    if any(each and not _lasts(case.scene, each * per_cycle) for each in until):
+        until = [None, None]
+        said = "contact is not yet permanent when the rate would be within 1e-6 of its limit"
+        notices = (*notices, f"{said}: the cycles to that are unknown")
     return _result(
         case,
         "steady",
@@ -235,19 +243,23 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
         wear_per_cycle_mm=per_cycle,
         pressure_MPa=float(pressure),
         log_coefficient_mm=float(mean),
-        cycles_to_stabilise={
-            "mean_rate_within_1e-6": _cycles(abs(mean), per_cycle),
-            "rate_within_1e-6": _cycles(max(map(abs, extremes)), per_cycle),
-        },
+        cycles_to_stabilise={"mean_rate_within_1e-6": until[0], "rate_within_1e-6": until[1]},
         notices=notices,
     )
 
 
 def _cycles(drift: Decimal, per_cycle: float) -> float | None:
-    """Return the cycles after which ``drift/(N per_cycle)`` is within the criterion."""
+    """Return the cycles, at least one, after which ``drift/(N per_cycle)`` is within the
+    criterion."""
     if per_cycle == 0.0:
         return None
-    return float(drift / (Decimal(per_cycle) * TOLERANCE))
+    return max(float(drift / (Decimal(per_cycle) * TOLERANCE)), 1.0)
+
+
+def _lasts(scene: Scene, wear: float) -> bool:
+    """Return whether contact lasts throughout a cycle at a wear (mm)."""
+    model, least = bind(scene), scene.periodic_load.minimum
+    return not model.ends_at_3_sigma or bool(model.margin(wear, least) > model.held_margin)
 
 
 def _constant_roughness(case: _Case) -> Asymptote:

@@ -20,6 +20,7 @@ from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scenes
 
 METHODS = ("auto", "abel", "collocation", *direct.METHODS)
+ONE_PERIOD = 'take one period of the record, kind = "table", repeat = true'
 LEAST_RTOL, LARGEST_RTOL = 1e-15, 0.1
 MOST_ITERATED = 10**6  # numbers taken from an iterator, which may be endless
 

@@ -24,6 +24,8 @@ class End(NamedTuple):
     way: str
 
     def __str__(self) -> str:
+        if self.cycle == 0:
+            return "no cycle adds wear"
         spread = f" (to within {self.uncertain})" if self.uncertain else ""
         return self.way.format(f"{self.cycle}{spread}")
 

@@ -38,7 +38,13 @@ from wear.parameters import (
     parametrised,
 )
 from wear.progress import Pace
-from wear.request import checked_request, checked_scenes, obstacle, whole_cycles
+from wear.request import (
+    ONE_PERIOD,
+    checked_request,
+    checked_scenes,
+    obstacle,
+    whole_cycles,
+)
 from wear.scene import Scene, as_scene
 from wear.states import notices_of_wear
 from wear.words import are_texts
@@ -300,7 +306,7 @@ def sensitivity(
     """
     scene = as_scene(scene)
     if (against := obstacle(scene)) is not None:
-        raise UsageError(f"cycles cannot be counted: {against}")
+        raise UsageError(f"cycles cannot be counted: {against}; {ONE_PERIOD}")
     wanted = checked_request(scene, cycles, rtol)
     numbers = parameters_of(scene)
     counted = np.array(wanted, dtype=float)

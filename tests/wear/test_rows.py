@@ -121,6 +121,18 @@ def test_an_instrument_s_file_that_is_described_wrongly(entries, problem, remedy
     assert remedy in caught.value.faults[0].remedy
 
 
+def test_units_in_a_header_of_another_name_are_no_contradiction(tmp_path):
+    """Default names of columns were taken for those of the file."""
+    (tmp_path / "log.csv").write_text("t_ms,U_a_um\n0,0\n30,0.5\n60,0\n")
+    with pytest.raises(SceneError) as caught:
+        scene(tmp_path, file="log.csv", unit="um")
+    (fault,) = caught.value.faults
+    assert fault.remedy.endswith('columns = ["t_ms", "U_a_um"], time_unit = "ms", unit = "um"')
+    (tmp_path / "log.csv").write_text("t_s,U_a_mm\n0,0\n30,0.5\n60,0\n")
+    with pytest.raises(SceneError, match='column "U_a_mm" is named in mm'):
+        scene(tmp_path, file="log.csv", unit="um")
+
+
 @pytest.mark.parametrize(
     ("entries", "keys"),
     [

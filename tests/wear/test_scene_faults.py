@@ -221,6 +221,11 @@ def test_lines_are_found_however_the_key_is_written() -> None:
     assert only_fault(text.replace("200.0", "-200.0")).line == 7
 
 
+def test_a_decimal_comma_is_named() -> None:
+    (fault,) = faults_of(GOOD.replace("200.0", "200,0  # MPa"))
+    assert fault.remedy == "write 0.5, with a point"
+
+
 def test_names_that_lead_nowhere(tmp_path: Path) -> None:
     def fault(name: str | Path) -> Fault:
         with pytest.raises(SceneError) as caught:
@@ -259,8 +264,8 @@ HEAD = "t_s,U_a_mm\n"
         ("t_s,x_um\n0,0\n1,0\n", "the columns are t_s,x_um", '["t_s", "x_um"], unit = "um"'),
         ("t_s;U_a_mm\n0,0;0,0\n", "the columns are t_s;U_a_mm", "commas between the columns"),
         ("t_s\tU_a_mm\n0\t0\n", "the columns are t_s\\x09U_a_mm", "points in the numbers"),
-        ("\n" + HEAD, "line 2: the number of rows below is 0", "from 2 to 1000000"),
-        (HEAD + "0,0\n", "the number of rows below is 1", "from 2 to 1000000"),
+        ("\n" + HEAD, "line 2: too few rows stand below: 0", "from 2 to 1000000"),
+        (HEAD + "0,0\n", "too few rows stand below: 1", "from 2 to 1000000"),
         (HEAD + "0,0\n1,a\n", 'line 3: U_a_mm is "a"', "without unit, such as 0.5"),
         (HEAD + "0,0\r\r1,0,0", 'line 4: "1,0,0" has 3 cells, the header 2', "delimiter"),
         (HEAD + "0,0\n1,nan\n", 'line 3: U_a_mm is "nan"', "give a number"),
@@ -269,7 +274,8 @@ HEAD = "t_s,U_a_mm\n"
         ("t_s,U_a_mm,t_s\n0,0,0\n1,0,0\n", "two columns are called t_s", "rename one"),
         (HEAD + "1,0\n2,0\n", "t_s starts at 1.0", "subtract"),
         (HEAD + "0,0\n2,1\n1,0\n", "does not come after 2.0", "sort"),
-        (HEAD + "0,0\n1,1\n1,0\n", "does not come after 1.0", "sort"),
+        (HEAD + "0,0\n1,1\n1,0\n", "does not come after 1.0", "keep one of the two"),
+        (HEAD + "0,0\n# a remark\n1,0\n", "is a comment below the header", "put it above"),
         (HEAD + "0,0\n1,1e-4\n", "jumps at the seam from 0.0001 to 0.0", "repeat the first"),
     ],
 )

@@ -31,6 +31,10 @@ _LABELS: Mapping[str, tuple[str, str]] = {
     "arrest_wear_mm": ("wear stops at", "mm"),
     "arrest_cycle": ("wear stops in cycle", ""),
 }
+_AFTER = {
+    "mean_rate_within_1e-6": "wear per cycle within 1e-6 after",
+    "rate_within_1e-6": "rate at every phase within 1e-6 after",
+}
 
 
 def add_arguments(parser: Parser) -> None:
@@ -58,7 +62,7 @@ def _lines(result: Asymptote) -> Iterator[str]:
         if (value := getattr(result, name)) is not None
     ]
     rows += [
-        (f"cycles until {name.replace('_', ' ')}", cycles, "")
+        (_AFTER[name], cycles, "cycles")
         for name, cycles in result.cycles_to_stabilise.items()
         if cycles is not None
     ]

@@ -55,12 +55,12 @@ def add_arguments(parser: Parser) -> None:
 def execute(options: Options) -> Answer:
     from wear.faults import AccuracyError, Interrupted
     from wear.life import cycles_until
-    from wear.request import obstacle
+    from wear.request import ONE_PERIOD, obstacle
     from wear.solver import solve
 
     faults = arguments.read(options)
     if options.until_wear and options.scene and (against := obstacle(options.scene)):
-        faults.append(f"--until-wear: cycles cannot be counted: {against}")
+        faults.append(f"--until-wear: cycles cannot be counted: {against}; {ONE_PERIOD}")
     if options.phases is not None:
         _check_inside(options, faults)
     faults.stop_if_any()

@@ -46,8 +46,8 @@ def execute(options: Options) -> Answer:
         from wear.life import cycles_until
 
         life = cycles_until(scene, depth, rtol)
-        if life.reached[0].value != "counted":
-            faults.append(f"--until-wear: {depth:g} mm: {life.reached[0].value}, no derivative")
+        if (way := life.reached[0].value) != "counted":
+            faults.append(f"--until-wear: {depth:g} mm: no derivative, since the cycles are {way}")
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:

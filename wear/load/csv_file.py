@@ -11,7 +11,7 @@ import hashlib
 import json
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple
@@ -112,9 +112,12 @@ class RowsFile(SceneTable):
                 "is the delimiter too",
                 'give the delimiter, such as delimiter = ";"',
             )
-        columns = given.get("columns", cls.entries["columns"].default)
-        if not are_texts(columns):
-            return
+        if are_texts(columns := given.get("columns", ())):
+            yield from cls.units_against(columns, given)
+
+    @classmethod
+    def units_against(cls, columns: Sequence[str], given: Mapping[str, Any]) -> Iterator[Finding]:
+        """Yield the `given` units that contradict the names of the columns."""
         units = {"time_unit": SECONDS, "unit": cls.units}
         for (key, known), column in zip(units.items(), columns, strict=False):
             unit, named = given.get(key, cls.entries[key].default), _unit_named(column, known)
@@ -225,7 +228,8 @@ def order_faults(times: FloatArray) -> list[LineFault]:
     late = np.flatnonzero(~(np.diff(times) > CLOSEST_ROWS * np.abs(times[1:])))
     for at in late[:MOST_WRONG_ROWS].tolist():
         before, time = times[at : at + 2].tolist()
-        faults.append((at + 1, f"t_s = {time!r} does not come after {before!r}", "sort by time"))
+        remedy = "keep one of the two rows" if time == before else "sort by time"
+        faults.append((at + 1, f"t_s = {time!r} does not come after {before!r}", remedy))
     return faults
 
 
@@ -244,6 +248,9 @@ def _parse(text: str, form: RowsFile) -> FloatArray:
     found = find_rows(text, form.delimiter, lambda names: set(form.columns) <= {*names})
     if found is None:
         raise _wrong_lines(form, _header_fault(text, form))
+    units = {"time_unit": form.time_unit, "unit": form.unit}
+    if against := [*form.units_against(form.columns, units)]:
+        raise EntryError(*against)
     if twice := [name for name in form.columns if found.names.count(name) > 1]:
         problem, remedy = f"two columns are called {shown(twice[0])}", "rename one of them"
         raise _wrong_lines(form, (found.line, problem, remedy))
@@ -262,9 +269,11 @@ def _parse(text: str, form: RowsFile) -> FloatArray:
             at = next(at for at, value in zip(places, row, strict=True) if not is_sane(value))
             problem = f'{shown(found.names[at])} is "{shown(cells[at])}"'
             remedy = f"give a number without unit, such as 0{form.decimal}5; {BOUNDS}"
+        elif cells[0].startswith("#"):
+            problem, remedy = "is a comment below the header", "delete it, or put it above"
         else:
-            line = shown(form.delimiter.join(cells))
-            problem = f'"{line}" has {len(cells)} cells, the header {len(found.names)}'
+            line, many = shown(form.delimiter.join(cells)), "s" * (len(cells) > 1)
+            problem = f'"{line}" has {len(cells)} cell{many}, the header {len(found.names)}'
             remedy = "give one for each column; delimiter and decimal say how the file is written"
         faults.append((number, problem, remedy))
         if len(faults) == MOST_WRONG_ROWS:
@@ -275,7 +284,8 @@ def _parse(text: str, form: RowsFile) -> FloatArray:
         columns[0] -= columns[0, 0] if from_first else 0.0
         faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
     if not faults and not 2 <= len(valid) <= MOST_ROWS:
-        problem = f"the number of rows below is {len(valid)}"
+        wrong = "few" if len(valid) < 2 else "many"
+        problem = f"too {wrong} rows stand below: {len(valid)}"
         faults.append((found.line, problem, f"give from 2 to {MOST_ROWS}"))
     if faults:
         raise _wrong_lines(form, *sorted(faults)[:MOST_WRONG_ROWS])
@@ -291,11 +301,15 @@ def _header_fault(text: str, form: RowsFile) -> LineFault:
         return line, "the columns have no names", f"put the line {wanted} above the numbers"
     names = [*cells, "...", "..."][:2] if header else ["...", "..."]
     remedy = f"begin with {wanted}, or say columns = {json.dumps(names, ensure_ascii=False)}"
-    if unit := _unit_named(names[1], form.units):
-        remedy += f', unit = "{unit}"'
+    units = {"time_unit": SECONDS, "unit": form.units}
+    for name, (key, known) in zip(names, units.items(), strict=True):
+        unit = _unit_named(name, known)
+        if unit and known[unit] != known[form.entries[key].default]:
+            remedy += f', {key} = "{unit}"'
     if other := next((sign for sign in ";\t" if sign in header and sign != form.delimiter), ""):
         remedy = (
             f"begin with {wanted}, put commas between the columns and points in the numbers, or "
-            f"say how the file is written: delimiter = {json.dumps(other)}, decimal = ..."
+            f"say how the file is written: delimiter = {json.dumps(other)}, "
+            f'decimal = "{"," if "," in text else "."}"'
         )
     return line, f"the columns are {shown(header) or 'missing'}", remedy

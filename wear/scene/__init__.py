@@ -132,7 +132,7 @@ class Scene(SceneTable):
             record = 'one period, kind = "table", repeat = true'
             raise UsageError(
                 f'{self.name}: a load of kind "{kind}" does not repeat; this needs one that does: '
-                f"take {'one of them' if kind == 'blocks' else record}"
+                f"take {'one of its blocks' if kind == 'blocks' else record}"
             )
         return self.load
 

@@ -27,6 +27,7 @@ PARTS = ("bearing", "pin", "contact", "support", "motion", "load")
 
 _HEADER = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(r"\s*([A-Za-z0-9_\-\"'. \t]+?)\s*=")
+_COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")
 _AT_LINE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)")
 
 
@@ -118,7 +119,8 @@ def _parse(text: str, file: str) -> dict[str, Any]:
         problem = f"is not TOML: {shown(_AT_LINE.sub('', words), most=120)}"
         if number is not None:
             problem += f': "{shown(lines[number - 1].strip())}"'
-        fault = _refused(file, number, problem, FORM)
+        comma = number is not None and _COMMA.search(lines[number - 1])
+        fault = _refused(file, number, problem, "write 0.5, with a point" if comma else FORM)
     raise fault
 
 
