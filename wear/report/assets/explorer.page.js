@@ -158,7 +158,7 @@ function draw(state, solved, inTheEnd) {
   }
   show("roughness", rough, { ...axis, y: "roughness in µm", zero: true });
   show("pressure", [
-    { name: "at the peak of the load", points: over((u) => fields(u, load.value(load.peak)).p) },
+    { name: "at the peak of the load, as worn after the cycle", points: over((u) => fields(u, load.value(load.peak)).p) },
     { name: "mean of a cycle", points: means(points, wearOfUnit(state)) },
     { name: "at the end of a cycle", points: over((u) => start(u).p) },
   ], { ...axis, y: "pressure in MPa", zero: true });
