@@ -32,7 +32,7 @@ from wear.orbit.iterates import NODES, CountTable, Iterates, cell_of
 from wear.orbit.panels import CHECKS, PanelCycles, near_checks
 from wear.orbit.period_map import PeriodMap, Selection, Settings, period_map, settings
 from wear.orbit.problem import Problem
-from wear.orbit.segments import Orbit
+from wear.orbit.segments import TIGHT, Orbit
 from wear.orbit.transient import SAFETY
 
 BESIDE = 0.1  # of a cell: distance for the logarithmic derivative of the density
@@ -163,6 +163,8 @@ def _in_segment(
     """Return the derivatives after `cycles` (s, c) since the start of a segment, see `InSegment`,
     and the increments of the last cycles (s, c)."""
     size = settings(rtol, problem.breakpoints)
+    if iterates.cycles and iterates.cycles[0].inside.shape[-1] > size.phase_nodes:
+        size = settings(TIGHT, problem.breakpoints)  # of the second try
     maps = period_map(problem, iterates.edges, size.phase_nodes, ITERATION_TOLERANCE)
     early = _in_transient(maps, iterates, size, start)
     number = iterates.integrated_cycles
