@@ -143,9 +143,9 @@ def test_what_late_readings_leave_open_is_named(far_off):
 
 def test_the_estimate_is_that_of_scipys_least_squares(found):
     other = least_squares(
-        lambda theta: found.model(theta[None])[0][0],
+        lambda theta: found.model(theta[None]).residuals[0],
         found.theta + 0.05,
-        jac=lambda theta: found.model(theta[None])[1][0],
+        jac=lambda theta: found.model(theta[None]).slope[0],
         x_scale="jac",
     )
     np.testing.assert_allclose(found.theta, other.x, rtol=1e-5)
@@ -166,9 +166,9 @@ def test_readings_under_blocks_are_fitted():
 
 
 def test_the_jacobian_is_that_of_differences(found):
-    slope = found.model(found.theta[None])[1][0]
+    slope = found.model(found.theta[None]).slope[0]
     for place, step in enumerate(1e-3 * np.eye(2)):
-        off, _ = found.model(found.theta + np.array([step, -step]))
+        off = found.model(found.theta + np.array([step, -step])).residuals
         np.testing.assert_allclose(slope[:, place], (off[0] - off[1]) / 2e-3, rtol=1e-3, atol=1e-5)
 
 
@@ -189,7 +189,7 @@ def test_an_interval_ends_where_the_others_have_followed():
     for end in found.profiles[0].interval:
 
         def others(x, end=end):
-            off, slope = found.model(np.array([[end, *x]]))
+            _, off, slope = found.model(np.array([[end, *x]]))
             return off[0], slope[0][:, 1:]
 
         near = least_squares(lambda x: others(x)[0], found.theta[1:], jac=lambda x: others(x)[1])
@@ -264,7 +264,7 @@ def test_numbers_of_cycles_may_be_an_array_and_a_depth_zero(found):
 
 def test_the_next_reading_narrows_the_band_as_if_it_had_been_read(found):
     advice = found.next_reading(1e6)
-    slope = found.model(found.theta[None])[1][0]
+    slope = found.model(found.theta[None]).slope[0]
     _, ahead = found.model.log_wear(found.theta[None], [np.array([advice.cycles, 1e6])])
     reading, target = ahead[0]
     more = np.vstack([slope, reading])

@@ -116,6 +116,17 @@ def test_a_loose_count_of_violent_cycles_has_derivatives_within_their_estimates(
     assert np.all(loose.error[0] <= 1e-9 * loose.derivative[0])
 
 
+def test_a_loose_count_that_had_to_be_repeated_has_derivatives() -> None:
+    """Where the wear rate rises steeply, a loose count is repeated to more digits."""
+    scene = load_scene("section5").with_(
+        {"bearing.wear_coefficient": 1.257e-7, "bearing.roughness_growth": 0.02}
+    )
+    keys, cycles = ["bearing.wear_coefficient", "bearing.roughness_growth"], [10, 50525]
+    loose, strict = (gradients([scene], keys, cycles, rtol) for rtol in (1e-7, 1e-12))
+    assert np.all(np.abs(loose.derivative - strict.derivative) <= loose.error + strict.error)
+    assert np.all(loose.error <= 1e-9 * np.abs(loose.derivative))
+
+
 def test_a_number_of_cycles_at_which_a_piece_of_the_count_begins_has_an_estimate() -> None:
     """The count of this scene has a cell that begins after 300 cycles."""
     scene = load_scene("section4").with_(

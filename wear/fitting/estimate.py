@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from wear.fitting.model import RTOL, FitModel, Parameter
+from wear.fitting.model import RTOL, FitModel, Linearised, Parameter
 from wear.fitting.residuals import rms
 from wear.numerics.gauss import FloatArray
 
@@ -22,11 +22,15 @@ RANK_TOLERANCE = 1e-7  # of the largest singular value: smaller ones are errors 
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """A model and the point `theta` (p,) of least squares: the estimates, in logarithms where only
-    positive numbers make a scene."""
+    """A model and its `best` point, that of least squares."""
 
     model: FitModel
-    theta: FloatArray
+    best: Linearised
+
+    @property
+    def theta(self) -> FloatArray:
+        """Return the estimates (p,), as logarithms where only positive numbers make a scene."""
+        return np.asarray(self.best.theta[0])
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -38,14 +42,10 @@ class Estimate:
         """Return the estimates in the units of their keys."""
         return self.model.values(self.theta)
 
-    @cached_property
-    def _at_theta(self) -> tuple[FloatArray, FloatArray]:
-        return self.model(self.theta[None])
-
     @property
     def residuals(self) -> FloatArray:
         """Return the residuals (n,), over the scatter where that is known."""
-        return np.asarray(self._at_theta[0][0])
+        return np.asarray(self.best.residuals[0])
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -102,7 +102,7 @@ class Estimate:
     @cached_property
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Return the `directions` for residuals with a scatter of 1."""
-        _, values, rows = np.linalg.svd(self._at_theta[1][0] * self.scale)
+        _, values, rows = np.linalg.svd(self.best.slope[0] * self.scale)
         return 1.0 / np.maximum(values, RANK_TOLERANCE * values[0]), rows
 
     @property

@@ -78,9 +78,9 @@ class Fit(Estimate):
         report = Pace(progress).say
         found = Estimate(model, estimate(model, report))
         if not intervals:
-            return cls(model, found.theta)
+            return cls(model, found.best)
         best, followed = profiles(found, report)
-        return cls(model, best.theta, followed)
+        return cls(model, best.best, followed)
 
     @property
     def scenes(self) -> list[Scene]:
@@ -166,8 +166,9 @@ class Fit(Estimate):
         early = replace(model, specimens=tuple(laws.first_half(model.specimens)))
         if len(early.residuals.observed) < len(self.theta):
             return float(np.nan)
-        theta, _ = descend(early, self.theta[None], self.box)
-        level, _ = model.log_wear(theta, [s.cycles[-1:] for s in model.specimens])
+        (theta, *_) = descend(early, early(self.theta[None]), self.box)
+        last = [s.cycles[-1:] for s in model.specimens]
+        level, _ = model.log_wear(theta, last, derivatives=False)
         return laws.forecast_rms(model.specimens, level[0])
 
     def as_json(self, cycles: ArrayLike = (), wear_mm: float | None = None) -> dict[str, Any]:

@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from wear.faults import Faults, UsageError
-from wear.fitting.model import FitModel
+from wear.fitting.model import FitModel, Linearised
 from wear.fitting.readings import Specimen
 from wear.load import Blocks
 from wear.load.spans import span
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray
+from wear.numerics.rows import stacked, take
 from wear.regime import fresh_wear_per_cycle, steady_wear_per_cycle
 
 SEARCH_RANGE = 20.0  # e-folds, or multiples of a parameter's size, around the scene
@@ -30,49 +31,49 @@ DAMPING, MOST_DAMPING = 1e-3, 1e8  # of a Gauss-Newton step: first, and where a 
 
 def descend(
     model: FitModel,
-    starts: FloatArray,
+    starts: Linearised,
     box: tuple[FloatArray, FloatArray],
     say: Callable[[str], None] = lambda _: None,
-) -> tuple[FloatArray, FloatArray]:
-    """Return points (m, p) of least squares near each start and their sums of squares (m,), in a
-    box given by its centre and half widths (p,).
+) -> Linearised:
+    """Return the points of least squares near each start, in a box given by its centre and half
+    widths (p,).
 
     Levenberg and Marquardt's method (J. Nocedal, S. J. Wright, *Numerical Optimization*, Springer
     2006, section 10.3) with a damping for every start: each round is one batch of scenes, of those
     that still descend.
     """
     low, high = box[0] - box[1], box[0] + box[1]
-    points = np.clip(starts, low, high)
-    residuals, slope = model(points)
-    costs = np.sum(residuals**2, axis=1)
-    damping, gain = np.tile([[DAMPING], [np.inf]], len(points))
-    active = np.arange(len(points))
+    found, number = starts, starts.residuals.shape[1]
+    damping, gain = np.tile([[DAMPING], [np.inf]], len(starts.theta))
+    active = np.arange(len(starts.theta))
     for _ in range(MOST_STEPS):
-        say(f"least sum of squares: {costs.min():.6g}, searches left: {len(active)}")
-        J = slope[active]
-        normal = np.swapaxes(J, 1, 2) @ J
-        diagonal = np.einsum("mii->mi", normal)  # a view
-        diagonal += damping[active, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
-        step = np.linalg.solve(normal, -np.einsum("mnp,mn->mp", J, residuals[active])[..., None])
-        trial = np.clip(points[active] + step[..., 0], low, high)
-        trial_residuals, trial_slope = model(trial)
-        trial_costs = np.sum(trial_residuals**2, axis=1)
-        better = trial_costs < costs[active]
-        variance, improved = costs[active] / residuals.shape[1], active[better]
-        gain[improved] = (costs[active] - trial_costs)[better]
-        converged = np.abs(costs[active] - trial_costs) <= ACCURACY * variance
+        say(f"least sum of squares: {found.costs.min():.6g}, searches left: {len(active)}")
+        here = take(found, active)
+        trial = model(np.clip(here.theta + _step(here, damping[active]), low, high))
+        better = trial.costs < here.costs
+        change, variance, improved = here.costs - trial.costs, here.costs / number, active[better]
+        gain[improved] = change[better]
+        converged = np.abs(change) <= ACCURACY * variance
         converged |= ~better & (gain[active] <= SMALL_GAIN * variance)
-        points[improved], costs[improved] = trial[better], trial_costs[better]
-        residuals[improved], slope[improved] = trial_residuals[better], trial_slope[better]
+        found = found.with_rows(improved, take(trial, better))
         damping[active] *= np.where(better, 0.1, 8.0)
         active = active[~(converged | (damping[active] > MOST_DAMPING))]
         if not len(active):
             break
-    return points, costs
+    return found
 
 
-def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
-    """Return the point (p,) of least squares, from several starts.
+def _step(at: Linearised, damping: FloatArray) -> FloatArray:
+    """Return the damped steps (m, p) to the least sums of squares of the linearised model."""
+    normal = np.swapaxes(at.slope, 1, 2) @ at.slope
+    diagonal = np.einsum("mii->mi", normal)  # a view
+    diagonal += damping[:, None] * diagonal + np.where(diagonal > 0.0, 0.0, 1.0)
+    gradient = np.einsum("mnp,mn->mp", at.slope, at.residuals)
+    return np.asarray(-np.linalg.solve(normal, gradient[..., None])[..., 0])
+
+
+def estimate(model: FitModel, say: Callable[[str], None]) -> Linearised:
+    """Return the point of least squares, from several starts.
 
     These are the scene itself, the scene with the roughness growth of `_starting_growth` if that is
     free, both with wear coefficients by `_with_matched_pace`, which need not suit where another
@@ -84,19 +85,22 @@ def estimate(model: FitModel, say: Callable[[str], None]) -> FloatArray:
     starts = centre[None]
     if growths.any():
         starts = np.array([centre, np.where(growths, _starting_growth(model), centre)])
-    residuals, slope = model(starts)
-    finite = np.all(np.abs(residuals) < model.residuals.missing, axis=1)
+    first = model(starts)
+    finite = np.all(np.abs(first.residuals) < model.residuals.missing, axis=1)
     if not finite.any():
         raise UsageError("no start leads to a scene with wear: correct the scene")
-    idle = np.all(slope == 0.0, axis=(0, 1))
+    idle = np.all(first.slope == 0.0, axis=(0, 1))
     parameters = zip(model.parameters, idle.tolist(), strict=True)
     Faults(f"free: {p}: has no influence" for p, none in parameters if none).stop_if_any()
     worn = np.array([p.key.endswith(".wear_coefficient") for p in model.parameters])
     others = centre + np.outer(FOLDS, worn) if worn.any() else np.empty((0, len(centre)))
-    starts = np.concatenate([starts, _with_matched_pace(model, starts[finite]), others])
-    best = starts[np.argsort(model.cost(starts), kind="stable")[:DESCENTS]]
-    points, costs = descend(model, best, (centre, SEARCH_RANGE * model.scale(centre)), say)
-    return np.asarray(points[np.argmin(costs)])
+    others = np.concatenate([_with_matched_pace(model, starts[finite]), others])
+    costs = np.concatenate([first.costs, model.cost(others)])
+    best = np.argsort(costs, kind="stable")[:DESCENTS]
+    new = model(others[best[best >= len(starts)] - len(starts)])
+    starting = stacked([take(first, best[best < len(starts)]), new])
+    found = descend(model, starting, (centre, SEARCH_RANGE * model.scale(centre)), say)
+    return take(found, np.array([np.argmin(found.costs)]))
 
 
 def _starting_growth(model: FitModel) -> float:
@@ -136,7 +140,7 @@ def _with_matched_pace(model: FitModel, starts: FloatArray) -> FloatArray:
     # Blocks are counted one by one: no farther than they were read.
     farthest = 1e12 if not isinstance(model.scene.load, Blocks) else last
     grid = np.rint(np.geomspace(1.0, farthest, CURVE_POINTS))
-    level, _ = model.log_wear(starts, [grid] * len(model.specimens))
+    level, _ = model.log_wear(starts, [grid] * len(model.specimens), derivatives=False)
     level = level.reshape(len(starts), len(model.specimens), -1)
     matched = starts.copy()
     for start, curves in zip(matched, np.fmax.accumulate(level, axis=2), strict=True):

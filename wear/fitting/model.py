@@ -7,14 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from wear.cycles import sweep
 from wear.faults import Faults, SceneError, UsageError
 from wear.fitting.readings import Specimen, read_readings, readings_of
 from wear.fitting.residuals import Residuals
-from wear.numerics.gauss import FloatArray
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.parameters import no_such_number, parameters_of
 from wear.scene import Scene, as_scene
 from wear.sensitivities import gradients
@@ -42,6 +43,27 @@ class Parameter:
     def theta(self, value: float) -> float:
         """Return the value, or its logarithm where that is estimated."""
         return float(np.log(value)) if self.positive else value
+
+
+class Linearised(NamedTuple):
+    """A model at points `theta` (m, p): its residuals (m, n), and their Jacobian `slope`
+    (m, n, p)."""
+
+    theta: FloatArray
+    residuals: FloatArray
+    slope: FloatArray
+
+    @property
+    def costs(self) -> FloatArray:
+        """Return the sums of the squared residuals (m,)."""
+        return np.asarray(np.sum(self.residuals**2, axis=1))
+
+    def with_rows(self, rows: IntArray | BoolArray, others: Linearised) -> Linearised:
+        """Return these points with `others` in place of some."""
+        arrays = [array.copy() for array in self]
+        for array, values in zip(arrays, others, strict=True):
+            array[rows] = values
+        return Linearised(*arrays)
 
 
 @dataclass(frozen=True)
@@ -87,19 +109,25 @@ class FitModel:
         parameters = (Parameter(key, name, is_positive(base, key)) for key, name in names)
         return cls(base, specimens, tuple(parameters), error == "relative")
 
-    def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return residuals (m, n) and their exact Jacobian (m, n, p) at points (m, p)."""
+    def __call__(self, points: FloatArray) -> Linearised:
+        """Return residuals and their exact Jacobian at points (m, p)."""
         level, slope = self.log_wear(points, self.cycles)
-        values = self.residuals(level)
         slope = self.residuals.slope(level)[..., None] * slope
-        valid = np.isfinite(values) & np.all(np.isfinite(slope), axis=-1)
-        return np.where(valid, values, self.residuals.missing), np.where(
-            valid[..., None], slope, 0.0
-        )
+        values, valid = self._valid(level, np.all(np.isfinite(slope), axis=-1))
+        return Linearised(points, values, np.where(valid[..., None], slope, 0.0))
 
     def cost(self, points: FloatArray) -> FloatArray:
         """Return the sums of the squared residuals (m,)."""
-        return np.asarray(np.sum(self(points)[0] ** 2, axis=1))
+        level, _ = self.log_wear(points, self.cycles, derivatives=False)
+        return np.asarray(np.sum(self._valid(level)[0] ** 2, axis=1))
+
+    def _valid(
+        self, log_wear: FloatArray, also: BoolArray | bool = True
+    ) -> tuple[FloatArray, BoolArray]:
+        """Return the residuals, and which of them are those of a scene with wear."""
+        values = self.residuals(log_wear)
+        valid = np.isfinite(values) & also
+        return np.where(valid, values, self.residuals.missing), valid
 
     @cached_property
     def residuals(self) -> Residuals:
@@ -144,18 +172,22 @@ class FitModel:
         ]
 
     def log_wear(
-        self, points: FloatArray, cycles: Sequence[FloatArray]
+        self, points: FloatArray, cycles: Sequence[FloatArray], derivatives: bool = True
     ) -> tuple[FloatArray, FloatArray]:
         """Return the logarithm of the wear (m, n) at many points (m, p), and its derivatives with
-        respect to theta (m, n, p): of every specimen after its cycles, one after the other.
+        respect to theta (m, n, p), if they are wanted: of every specimen after its cycles, one
+        after the other.
 
         Without a scene or without wear they are NaN.
         """
-        keys, scenes = self.keys, list[Scene]()
+        keys, scenes = self.keys if derivatives else [], list[Scene]()
         valid = np.full(len(points), False)
+        alike = self._alike
+        firsts = list(dict.fromkeys(alike))
         for place, theta in enumerate(points):
             with suppress(SceneError, OverflowError):
-                scenes += self.scenes(theta)
+                every = self.scenes(theta)
+                scenes += [every[first] for first in firsts]
                 valid[place] = True
         counts = np.concatenate(cycles)
         level = np.full((len(points), len(counts)), np.nan)
@@ -164,18 +196,28 @@ class FitModel:
             return level, slope
         wanted, column = np.unique(counts, return_inverse=True)
         which = np.repeat(np.arange(len(cycles)), [len(each) for each in cycles])
+        scene = np.searchsorted(firsts, alike)[which]
         wear, derivative = (
-            np.moveaxis(x.reshape(-1, len(cycles), *x.shape[1:]), -1, 2)[:, which, column]
+            np.moveaxis(x.reshape(np.sum(valid), len(firsts), *x.shape[1:]), -1, 2)[
+                :, scene, column
+            ]
             for x in _gradients(scenes, keys, wanted)
         )
         names = np.array([specimen.name for specimen in self.specimens])
         with np.errstate(all="ignore"):
             level[valid] = np.log(wear)
-            for i, p in enumerate(self.parameters):
+            for i, p in enumerate(self.parameters if derivatives else ()):
                 size = p.value(points[valid, i, None]) if p.positive else 1.0
                 acts = names[which] == p.specimen if p.specimen else True
                 slope[valid, :, i] = acts * size * derivative[..., keys.index(p.key)] / wear
         return level, slope
+
+    @cached_property
+    def _alike(self) -> list[int]:
+        """Return the number of the first specimen with the same scene, for each specimen."""
+        single = any(p.specimen for p in self.parameters)
+        kinds = [(s.name * single, *sorted(s.changes.items())) for s in self.specimens]
+        return [kinds.index(kind) for kind in kinds]
 
 
 def _gradients(
@@ -183,14 +225,16 @@ def _gradients(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the wear (s, n) of scenes and its derivatives (s, k, n), NaN for a scene that the
     engine cannot solve; the others are solved all the same."""
+    none = np.full((len(scenes), len(keys), len(cycles)), np.nan)
     try:
-        return gradients(scenes, keys, cycles, RTOL)[:2]
+        return gradients(scenes, keys, cycles, RTOL)[:2] if keys else (
+            sweep(scenes, cycles, RTOL).u_c, none
+        )  # fmt: skip
     except UsageError:
         raise
     except (ArithmeticError, ValueError):  # LinAlgError is a ValueError
         if len(scenes) == 1:
-            shape = (1, len(keys), len(cycles))
-            return np.full((1, len(cycles)), np.nan), np.full(shape, np.nan)
+            return np.full((1, len(cycles)), np.nan), none
     parts = [_gradients([scene], keys, cycles) for scene in scenes]
     return np.concatenate([u for u, _ in parts]), np.concatenate([d for _, d in parts])
 

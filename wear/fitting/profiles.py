@@ -15,8 +15,10 @@ import numpy as np
 
 from wear.fitting.estimate import PARAMETER_RANGE, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
+from wear.fitting.model import Linearised
 from wear.numerics.floating_point import TINY
 from wear.numerics.gauss import FloatArray, IntArray
+from wear.numerics.rows import take
 
 LEVELS = (0.5, 1.0)  # of the deviance's root, in quantiles, at which a profile is drawn
 END_TOLERANCE = 0.01  # of the quantile: accuracy of an end
@@ -47,8 +49,7 @@ def profiles(fit: Estimate, say: Callable[[str], None]) -> tuple[Estimate, tuple
             ends.move_to(level * fit.quantile * fit.scatter, say)
         if not ends.least < fit.chi_square - WORTHWHILE_GAIN * fit.scatter**2:
             break
-        theta, _ = descend(fit.model, ends.best[None], fit.box, say)
-        fit = Estimate(fit.model, theta[0])
+        fit = Estimate(fit.model, descend(fit.model, ends.best, fit.box, say))
     made = {number: ends.profile(2 * i) for i, number in enumerate(moved(fit))}
     return fit, tuple(made.get(i) or _linear(fit, i) for i in range(len(fit.theta)))
 
@@ -61,64 +62,77 @@ def moved(fit: Estimate) -> list[int]:
 
 class _Ends:
     """Both ends of the intervals of all moved parameters (k,): the number of the parameter, the
-    `side` to which it moves, the `points` (k, p) reached, and whether the data leave it `unbounded`
-    (k,); with the `best` point seen, of the `least` sum of squares."""
+    `side` to which it moves, the points `at` which the model was evaluated last (k, ...), and
+    whether the data leave it `unbounded` (k,); with the `best` point seen, of the `least` sum of
+    squares."""
 
     def __init__(self, fit: Estimate) -> None:
         self.fit, self.number = fit, np.repeat(moved(fit), 2)
         self.side = np.tile([-1.0, 1.0], len(self.number) // 2)
-        self.points = np.tile(fit.theta, (len(self.number), 1))
+        self.at = take(fit.best, np.zeros(len(self.number), dtype=int))
         self.unbounded = np.full(len(self.number), False)
-        self.best, self.least = fit.theta, fit.chi_square
-        self.seen = [(self.points.copy(), np.zeros(len(self.number)))]
+        self.best, self.least = fit.best, fit.chi_square
+        self.seen = [(self.at.theta, np.zeros(len(self.number)))]
 
     def move_to(self, level: float, say: Callable[[str], None]) -> None:
         """Move the ends until the root of the deviance is at a `level`, in units of residuals."""
         fit, far = self.fit, PARAMETER_RANGE * self.fit.scale
         low, high = fit.theta - far, fit.theta + far
-        residuals, slope = fit.model(self.points)
         longest, active = np.full(len(self.number), FIRST_STEP), np.flatnonzero(~self.unbounded)
         slack = np.full(len(self.number), fit.quantile * fit.scatter)
+        ends, roots = self.at.theta.copy(), self._root(self.at)
         for _ in range(MOST_STEPS):
+            say(f"ends of intervals: {len(active)} left to be found")
+            number, before, rows = (
+                self.number[active],
+                take(self.at, active),
+                np.arange(len(active)),
+            )
+            linear = LinearModel.of(before.residuals, before.slope * fit.scale, number)
+            step = linear.farthest(self.side[active], fit.chi_square + level**2)
+            distance, next_step = (
+                np.abs(x)[rows, number] for x in ((before.theta - fit.theta) / fit.scale, step)
+            )
+            converged = np.abs(roots[active] - level) <= END_TOLERANCE * level
+            converged &= next_step <= END_TOLERANCE * distance
+            # The last step of Newton's method is not evaluated any more.
+            ends[active[converged]] = (before.theta + step * fit.scale)[converged]
+            roots[active[converged]] = level
+            left = ~converged & ~self.unbounded[active]
+            active, number, step, before = (
+                active[left],
+                number[left],
+                step[left],
+                take(before, left),
+            )
             if not len(active):
                 break
-            say(f"ends of intervals: {len(active)} left to be found")
-            number, before, rows = self.number[active], self.points[active], np.arange(len(active))
-            limit = np.maximum(level + slack[active], self._root(residuals[active]))
-            linear = LinearModel.of(residuals[active], slope[active] * fit.scale, number)
-            step = linear.farthest(self.side[active], fit.chi_square + level**2)
+            limit = np.maximum(level + slack[active], roots[active])
             step *= np.minimum(1.0, longest[active] / np.max(np.abs(step), axis=1))[:, None]
             # At a bound the whole step is shortened: clipped, it would leave the valley.
-            room = np.where(step > 0.0, high - before, before - low) / fit.scale
+            room = np.where(step > 0.0, high - before.theta, before.theta - low) / fit.scale
             step *= np.minimum(1.0, np.min(room / (np.abs(step) + TINY), axis=1))[:, None]
-            trial = before + step * fit.scale
-            residuals_there, trial_slope = fit.model(trial)
-            bad = self._root(residuals_there) > limit
-            bad &= trial_slope.any(axis=(1, 2))  # where there is a scene
+            trial = fit.model(before.theta + step * fit.scale)
+            bad = self._root(trial) > limit
+            bad &= trial.slope.any(axis=(1, 2))  # where there is a scene
             if bad.any():  # the valley bends: the other parameters follow
-                near = LinearModel.of(
-                    residuals_there[bad], trial_slope[bad] * fit.scale, number[bad]
-                )
-                trial[bad] = np.clip(trial[bad] + near.steps_of_others() * fit.scale, low, high)
-                residuals_there[bad], trial_slope[bad] = fit.model(trial[bad])
-            self._remember(trial, residuals_there)
-            root = self._root(residuals_there)
+                there = take(trial, bad)
+                near = LinearModel.of(there.residuals, there.slope * fit.scale, number[bad])
+                followed = np.clip(there.theta + near.steps_of_others() * fit.scale, low, high)
+                trial = trial.with_rows(bad, fit.model(followed))
+            self._remember(trial)
+            root = self._root(trial)
             good = root <= limit
             longest[active] *= np.where(good, LENGTHENED, SHORTENED)
             slack[active] *= np.where(good & (root > level), SHORTENED, 1.0)
-            distance, moved_by = (np.abs(trial - x)[rows, number] for x in (fit.theta, before))
-            converged = np.abs(root - level) <= END_TOLERANCE * level
-            converged &= moved_by <= END_TOLERANCE * distance
             accepted = active[good]
-            for whole, part in zip(
-                (self.points, residuals, slope), (trial, residuals_there, trial_slope), strict=True
-            ):
-                whole[accepted] = part[good]
-            self.unbounded[active] = good & np.any(np.abs(trial - fit.theta) > 0.999 * far, axis=1)
-            active = active[~(good & converged) & ~self.unbounded[active]]
-        root = self._root(residuals)
-        self.unbounded[active] |= np.abs(root - level)[active] > OPEN_END_ERROR * level
-        self.seen.append((self.points.copy(), root / fit.scatter))
+            self.at = self.at.with_rows(accepted, take(trial, good))
+            ends[accepted], roots[accepted] = trial.theta[good], root[good]
+            self.unbounded[active] = good & np.any(
+                np.abs(trial.theta - fit.theta) > 0.999 * far, axis=1
+            )
+        self.unbounded[active] |= np.abs(roots - level)[active] > OPEN_END_ERROR * level
+        self.seen.append((ends, roots / fit.scatter))
 
     def profile(self, end: int) -> Profile:
         """Return the profile between an end and the next, in the unit of its parameter."""
@@ -134,14 +148,13 @@ class _Ends:
         )
         return Profile(values[drawn], roots[drawn], (float(interval[0]), float(interval[1])))
 
-    def _root(self, residuals: FloatArray) -> FloatArray:
-        deviance = np.sum(residuals**2, axis=1) - self.fit.chi_square
-        return np.asarray(np.sqrt(np.maximum(deviance, 0.0)))
+    def _root(self, points: Linearised) -> FloatArray:
+        return np.asarray(np.sqrt(np.maximum(points.costs - self.fit.chi_square, 0.0)))
 
-    def _remember(self, points: FloatArray, residuals: FloatArray) -> None:
-        for point, cost in zip(points, np.sum(residuals**2, axis=1).tolist(), strict=True):
-            if cost < self.least:
-                self.best, self.least = point, cost
+    def _remember(self, points: Linearised) -> None:
+        lowest = np.argmin(points.costs)
+        if points.costs[lowest] < self.least:
+            self.best, self.least = take(points, np.array([lowest])), float(points.costs[lowest])
 
 
 class LinearModel(NamedTuple):

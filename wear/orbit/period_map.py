@@ -265,10 +265,10 @@ class PeriodMap(NamedTuple):
         increment, error, derivative, response = last_values
         return increment, error / SAFETY, derivative, response, evaluations
 
-    def cut_for(self, start: float, size: Settings) -> PeriodMap:
+    def cut_for(self, start: float, limit: float, size: Settings) -> PeriodMap:
         """Return the map of one scene on a mesh that resolves a cycle from the state `start`,
-        however violent, or raise a `StoppedError`."""
-        parts = [last.edges for last in self.integrated(start, np.inf, size)]
+        however violent, which stays below the `limit`; or raise a `StoppedError`."""
+        parts = [last.edges for last in self.integrated(start, limit, size)]
         edges = np.unique(np.concatenate(parts))
         return period_map(self.equation, edges[None], size.phase_nodes, self.tolerance)
 

@@ -32,7 +32,7 @@ from wear.orbit.iterates import NODES, CountTable, Iterates, cell_of
 from wear.orbit.panels import CHECKS, PanelCycles, near_checks
 from wear.orbit.period_map import PeriodMap, Selection, Settings, period_map, settings
 from wear.orbit.problem import Problem
-from wear.orbit.segments import Orbit
+from wear.orbit.segments import TIGHT, Orbit
 from wear.orbit.transient import SAFETY
 
 BESIDE = 0.1  # of a cell: distance for the logarithmic derivative of the density
@@ -163,6 +163,8 @@ def _in_segment(
     """Return the derivatives after `cycles` (s, c) since the start of a segment, see `InSegment`,
     and the increments of the last cycles (s, c)."""
     size = settings(rtol, problem.breakpoints)
+    if iterates.cycles and iterates.cycles[0].inside.shape[-1] > size.phase_nodes:
+        size = settings(TIGHT, problem.breakpoints)  # of the second try
     maps = period_map(problem, iterates.edges, size.phase_nodes, ITERATION_TOLERANCE)
     early = _in_transient(maps, iterates, size, start)
     number = iterates.integrated_cycles
@@ -187,7 +189,8 @@ def _in_transient(maps: PeriodMap, iterates: Iterates, size: Settings, start: Kn
     if k == 0:
         return Known(*(values[:, None] for values in start))
     starts = iterates.transient[:, :-1].reshape(-1, 1)
-    coarse, fine = _of_cycles(maps.take(np.repeat(np.arange(scenes), k)), starts, size)
+    each = np.repeat(np.arange(scenes), k)
+    coarse, fine = _of_cycles(maps.take(each), starts, iterates.limit[each], size)
     E, D = (values.reshape(scenes, k, -1) for values in fine)
     off = [np.abs(x - y.reshape(x.shape)) for x, y in zip((E, D), coarse, strict=True)]
     of_state = iterates.transient_error[:, 1:] / (iterates.transient[:, 1:] + TINY)
@@ -212,15 +215,16 @@ def after_each_cycle(
 
 
 def _of_cycles(
-    maps: PeriodMap, starts: FloatArray, size: Settings
+    maps: PeriodMap, starts: FloatArray, limit: FloatArray, size: Settings
 ) -> tuple[MapDerivatives, MapDerivatives]:
     """Return the derivatives of the period map at each start (rows, 1), by the mesh and by a finer
-    one. A cycle that the mesh does not resolve gets a mesh of its own, NaN if none resolves it."""
+    one; states stay below the `limit` (rows,). A cycle that the mesh does not resolve gets a mesh of
+    its own, NaN if none resolves it."""
     run = maps.advance(starts)
     arrays = _linearised_twice(maps, starts, run, size)
     for row in np.flatnonzero(maps.unresolved(starts, run, size).any(axis=1))[:, None]:
         try:
-            better = maps.take(row).cut_for(float(starts[row, 0].item()), size)
+            better = maps.take(row).cut_for(starts[row].item(), limit[row].item(), size)
         except StoppedError:
             again: Sequence[FloatArray] = [np.array(np.nan)] * len(arrays)
         else:
