@@ -91,7 +91,7 @@ class Fit(Estimate):
         """Return every combination of parameters that the data leave open.
 
         A combination is a direction of the parameters, each relative to its size, with a standard
-        error beyond a factor e; or another parameter whose interval has an open end.
+        error beyond a factor of two; or another parameter whose interval has an open end.
         """
         return list(identifiability.undetermined(self, self.profiles))
 

@@ -5,6 +5,7 @@ The wear hardly changes along them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -15,7 +16,8 @@ from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile
 from wear.numerics.gauss import FloatArray
 
-UNKNOWN = 1.0  # standard error of a logarithm, or relative to the size, of an open combination
+UNKNOWN = math.log(2.0)  # standard error of a logarithm, or relative to the size: known at best to
+# a factor of two
 ALIKE = 0.1  # relative spread of powers that are shown as one
 NEGLIGIBLE = 0.02  # power
 

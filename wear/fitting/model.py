@@ -230,9 +230,7 @@ def _gradients(
         return gradients(scenes, keys, cycles, RTOL)[:2] if keys else (
             sweep(scenes, cycles, RTOL).u_c, none
         )  # fmt: skip
-    except UsageError:
-        raise
-    except (ArithmeticError, ValueError):  # LinAlgError is a ValueError
+    except (ArithmeticError, np.linalg.LinAlgError):
         if len(scenes) == 1:
             return np.full((1, len(cycles)), np.nan), none
     parts = [_gradients([scene], keys, cycles) for scene in scenes]

@@ -19,21 +19,27 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wear.loss_of_contact.arrest import RESOLVABLE
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.edge import turning_points
-from wear.loss_of_contact.increments import Coordinate
+from wear.loss_of_contact.increments import Coordinate, IncrementSeries, increments, located
 from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap
+from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss
+from wear.orbit.panels import CHECKS, near_checks
 from wear.parameters import Gradient, ParametrisedEquation
 
+MORE = 4  # nodes than the derivative of the series has coefficients
+NEGLIGIBLE = 1e-12  # coefficient of the derivative of the logarithm of the increments
 SAME = 4 * ROUNDOFF  # phase
 STIFF = 10.0  # decay over a part, as an exponent: then a system of equations is solved
 
 
 class CycleDerivatives(NamedTuple):
     """Cycles from some initial wears (k,): the `increment` (k,), mm, and its derivatives `tangent`
-    (k, 1 + parameters) with respect to the initial wear, and to parameters at the same wear.
+    (k, 1 + parameters), with their `error`: with respect to the initial wear, and to parameters at
+    a fixed distance of that wear from an `origin`, which has the derivatives (k, parameters).
 
     Derivatives are those of the increment, not of the wear: near a limit wear they are small, and
     would be lost in a difference to 1.
@@ -41,6 +47,80 @@ class CycleDerivatives(NamedTuple):
 
     increment: FloatArray
     tangent: FloatArray
+    origin: FloatArray
+    error: FloatArray
+
+    def along(self, origin: FloatArray | float) -> tuple[FloatArray, FloatArray]:
+        """Return the derivatives (k, 1 + parameters) if the wear moves with another origin, by its
+        derivatives (parameters,), and their error."""
+        difference = origin - self.origin
+        tangent, error = self.tangent.copy(), self.error.copy()
+        tangent[:, 1:] += difference * tangent[:, :1]
+        error[:, 1:] += np.abs(difference) * error[:, :1]
+        return tangent, error
+
+
+class Response(NamedTuple):
+    """Relative derivatives of the increments along a `series` of them: with respect to the
+    logarithm of the distance to the origin of its coordinate, and to parameters at a fixed
+    distance. Chebyshev `coefficients` (p, m, 1 + parameters) on the panels of the series, and their
+    `misfit` (p, checks, 1 + parameters); and the derivatives (parameters,) of the `origin`."""
+
+    series: IncrementSeries
+    coefficients: FloatArray
+    misfit: FloatArray
+    origin: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        series: IncrementSeries,
+        origin: FloatArray,
+        wear: FloatArray,
+        run: CycleDerivatives,
+    ) -> Response:
+        """Return the response along a series by the cycles from the wears `sample_wears` of it."""
+        distance = _distance(series.coordinate, wear)
+        relative = run.along(origin)[0] / run.increment[:, None]
+        relative[:, 0] *= distance
+        relative = relative.reshape(len(series.level), -1, relative.shape[1])
+        nodes, checks = np.split(relative, [-len(CHECKS)], axis=1)
+        coefficients = chebyshev_analysis(nodes.shape[1]) @ nodes
+        misfit = np.abs(chebyshev_values(CHECKS, nodes.shape[1]) @ coefficients - checks)
+        return cls(series, coefficients, misfit, origin)
+
+    def map_derivatives(self, wear: FloatArray) -> CycleDerivatives:
+        """Return the derivatives of the cycles from each wear (k,), mm."""
+        which, z = np.zeros(len(wear), dtype=int), self.series.coordinate.at(wear)
+        panel, t, _ = located([self.series], which, z)
+        basis = chebyshev_values(t, self.coefficients.shape[1])[:, None]
+        increment = increments([self.series], which, z)
+        scale = increment[:, None] * np.ones(1 + len(self.origin))
+        scale[:, 0] /= _distance(self.series.coordinate, wear)
+        tangent = scale * (basis @ self.coefficients[panel])[:, 0]
+        error = np.abs(scale) * near_checks(self.misfit[panel], t[:, None])[:, 0]
+        origin = np.tile(self.origin, (len(wear), 1))
+        return CycleDerivatives(increment, tangent, origin, error)
+
+
+def _distance(coordinate: Coordinate, wear: FloatArray) -> FloatArray:
+    """Return the distance (mm) of each wear from the origin of a coordinate, plus its shift."""
+    return np.asarray(wear - coordinate.origin + coordinate.shift)
+
+
+def sample_wears(series: IncrementSeries) -> FloatArray:
+    """Return the wears (mm) at which the response along a series is sampled: as many nodes of each
+    panel as the derivative of the series needs, and the CHECKS, no nearer to a limit wear than
+    rounding permits. There are none if the series is too short for its derivative."""
+    order = np.arange(series.series.shape[1])
+    needed = np.flatnonzero((np.abs(series.series) * order > NEGLIGIBLE).any(axis=0))
+    number = int(needed.max(initial=0)) + MORE
+    if number > len(order):
+        return np.empty(0)
+    t, domain = np.append(chebyshev_nodes(number), CHECKS), series.domain
+    wear = domain.wear(series.grid.states(t)).ravel()
+    nearest = RESOLVABLE * domain.uncertainty
+    return np.minimum(wear, domain.coordinate.origin - nearest) if domain.tends else wear
 
 
 def derivatives_of_origins(
@@ -81,7 +161,7 @@ def map_derivatives(
             if len(slid := run.slid):
                 slope, change = _margin(equation, (wear + added[rows])[slid], piece.end[slid])
                 own[slid], until[slid] = -change / slope[:, None], piece.end[slid]
-    return CycleDerivatives(added, tangent)
+    return CycleDerivatives(added, tangent, np.zeros_like(tangent[:, 1:]), np.zeros_like(tangent))
 
 
 def _through(

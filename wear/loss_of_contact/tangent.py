@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -9,17 +10,19 @@ import numpy as np
 from wear.loss_of_contact.arrest import TabulatedIterates
 from wear.loss_of_contact.cycle_derivatives import (
     CycleDerivatives,
+    Response,
     derivatives_of_grazing_wears,
     derivatives_of_origins,
     map_derivatives,
+    sample_wears,
 )
-from wear.loss_of_contact.increments import step
-from wear.loss_of_contact.period_map import switched_period_map
+from wear.loss_of_contact.increments import IncrementSeries, step
+from wear.loss_of_contact.period_map import SwitchedPeriodMap, switched_period_map
 from wear.loss_of_contact.switching import Edge
 from wear.numerics.chebyshev import chebyshev_nodes
 from wear.numerics.floating_point import ROUNDOFF
-from wear.numerics.gauss import FloatArray, IntArray
-from wear.numerics.rows import take
+from wear.numerics.gauss import BoolArray, FloatArray, IntArray
+from wear.numerics.rows import stacked, take
 from wear.orbit import abel
 from wear.orbit.iterates import Iterates
 from wear.orbit.panels import CHECKS
@@ -54,23 +57,24 @@ def stage_tangents(
     """Return the derivatives of the wear of one scene after `cycles` (1, n) by its `solution` to
     `rtol`, from those (1, parameters) of the first wear.
 
-    The cycles of all segments are linearised at once.
+    The cycles of all segments are linearised at once; where many of them lie along a series of
+    increments, their derivatives are a series, too.
     """
     size, scene = settings(rtol), ([equation.model], equation.loads, [edge])
     cycle = switched_period_map(*scene, size.phase_nodes, size.endpoint_tolerance)
     segments = [segment.iterates for segment in solution.orbit.segments]
-    starts = [_starts(iterates) for iterates in segments]
-    run_of_all = map_derivatives(cycle, equation, np.concatenate(starts))
-    ends = np.cumsum([0, *(len(each) for each in starts)]).tolist()
-    runs = [take(run_of_all, slice(*pair)) for pair in pairwise(ends)]
+    tables = [iterates for iterates in segments if isinstance(iterates, TabulatedIterates)]
+    series = list({id(table.series): table.series for table in tables}.values())
+    origins = derivatives_of_origins(equation, [each.coordinate for each in series])
+    runs = _of_each(cycle, equation, segments, list(zip(series, origins, strict=True)))
+    of_series = {id(each): origin for each, origin in zip(series, origins, strict=True)}
 
     def in_segment(number: int, wanted: FloatArray, before: Known) -> tuple[Known, FloatArray]:
         iterates, run = segments[number], runs[number]
         if isinstance(iterates, Iterates):
             return _one_by_one(iterates, run, wanted, before)
         if isinstance(iterates, TabulatedIterates):
-            (limit,) = derivatives_of_origins(equation, [iterates.series.coordinate])
-            return _tabulated(iterates, run, limit, wanted, before)
+            return _tabulated(iterates, run, of_series[id(iterates.series)], wanted, before)
         # In an unresolved segment no cycle is known.
         limit = np.full(equation.parameters, np.inf)
         if iterates.at_rest[0]:
@@ -122,10 +126,11 @@ def _one_by_one(
     iterates: Iterates, run: CycleDerivatives, cycles: FloatArray, start: Known
 ) -> tuple[Known, FloatArray]:
     """Return the derivatives after some of the single cycles (1, n), and the last increments."""
-    tangents, beside = np.split(run.tangent, [iterates.integrated_cycles])
-    difference, abrupt = np.zeros_like(tangents), _abrupt(iterates)
+    derivatives, derivatives_error = run.along(0.0)
+    tangents, beside = np.split(derivatives, [iterates.integrated_cycles])
+    difference, abrupt = derivatives_error[: len(tangents)], _abrupt(iterates)
     difference[abrupt] += np.abs(tangents[abrupt] - beside)
-    tangents = tangents + np.eye(tangents.shape[1])[0]
+    tangents[:, 0] += 1.0
     of_cycles, error = (MapDerivatives(x[None, :, :1], x[None, :, 1:])
                         for x in (tangents, difference))  # fmt: skip
     found = after_each_cycle(start, of_cycles, error, np.full((1, len(tangents)), ROUNDOFF))
@@ -176,5 +181,39 @@ def _added(
     one, after = np.ones(1), coordinate.rate(z + increment, np.ones(1))
     into_z = (near / after)[..., None]
     multiplier = (1.0 + run.tangent[:, 0].reshape(z.shape)) * coordinate.rate(z, one) / after
-    change = (run.tangent[:, 1:] + limit * run.tangent[:, :1]).reshape(*z.shape, -1)
-    return increment, into_z * change, multiplier
+    change, error = (x[:, 1:].reshape(*z.shape, -1) for x in run.along(limit))
+    return increment, into_z * change, multiplier, SAFETY * into_z * error
+
+
+def _of_each(
+    cycle: SwitchedPeriodMap,
+    equation: ParametrisedEquation,
+    segments: Sequence[AnyIterates],
+    known: Sequence[tuple[IncrementSeries, FloatArray]],
+) -> list[CycleDerivatives]:
+    """Return the derivatives of the cycles that each segment needs, all at once: by the response
+    along a `known` series of increments, with the derivatives (parameters,) of its origin, where
+    that takes fewer cycles."""
+    starts = [_starts(iterates) for iterates in segments]
+    wear = np.concatenate(starts)
+    alone = np.full(len(wear), True)
+    sampled: list[tuple[IncrementSeries, FloatArray, FloatArray, BoolArray]] = []
+    for series, origin in known:
+        along = alone & (series.domain.start <= wear) & (wear < series.domain.end)
+        if np.count_nonzero(along) > len(own := sample_wears(series)) > 0:
+            sampled.append((series, origin, own, along))
+            alone &= ~along
+    parts = [wear[alone], *(own for _, _, own, _ in sampled)]
+    first, *others = _split(map_derivatives(cycle, equation, np.concatenate(parts)), parts)
+    runs, order = [first], [np.flatnonzero(alone)]
+    for (series, origin, own, along), run in zip(sampled, others, strict=True):
+        runs.append(Response.of(series, origin, own, run).map_derivatives(wear[along]))
+        order.append(np.flatnonzero(along))
+    back = np.argsort(np.concatenate(order))
+    return _split(take(stacked(runs), back), starts)
+
+
+def _split(run: CycleDerivatives, starts: Sequence[FloatArray]) -> list[CycleDerivatives]:
+    """Return the cycles from each of several `starts`, which follow each other."""
+    ends = np.cumsum([0, *(len(each) for each in starts)]).tolist()
+    return [take(run, slice(*pair)) for pair in pairwise(ends)]

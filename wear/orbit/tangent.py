@@ -218,8 +218,8 @@ def _of_cycles(
     maps: PeriodMap, starts: FloatArray, limit: FloatArray, size: Settings
 ) -> tuple[MapDerivatives, MapDerivatives]:
     """Return the derivatives of the period map at each start (rows, 1), by the mesh and by a finer
-    one; states stay below the `limit` (rows,). A cycle that the mesh does not resolve gets a mesh of
-    its own, NaN if none resolves it."""
+    one; states stay below the `limit` (rows,). A cycle that the mesh does not resolve gets its own
+    mesh, NaN if none resolves it."""
     run = maps.advance(starts)
     arrays = _linearised_twice(maps, starts, run, size)
     for row in np.flatnonzero(maps.unresolved(starts, run, size).any(axis=1))[:, None]:
