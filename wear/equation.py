@@ -26,7 +26,6 @@ from wear.scene import Scene
 
 DEEPEST = 1e12  # roughnesses of wear: more than in any count
 HALF_DIFFERENCE = 1e-4  # of the roughness: half the step of the central difference in displacement
-SAMPLED = 4.0  # on rounding errors of a contact law that are known at single values
 USABLE_SHARE = 0.99  # of the wear at which the roughness vanishes
 PHASES = np.arange(256) / 256  # of a cycle, for its mean rate
 SAME = 1e-9  # of a cycle: phases nearer to its ends are the ends
@@ -174,6 +173,4 @@ def roundoff(model: Model, displacement: FloatArray, wear: FloatArray) -> FloatA
     steepness = np.abs(more - less) / (2 * half * (np.minimum(more, less) + TINY))
     underflow = SMALLEST / np.maximum(less, SMALLEST)
     result: FloatArray = ROUNDOFF * (CONDITION + steepness * terms) + underflow
-    if hasattr(model.module, "rounding_errors"):  # of an own contact law
-        result += SAMPLED * np.interp(fields.h / sigma, *model.module.rounding_errors)
-    return result
+    return np.asarray(result + model.law_roundoff(fields.h / sigma))

@@ -20,6 +20,7 @@ from wear.faults import UsageError
 Real = Any  # a float or an array of floats
 Fields = Any  # the named tuple of a generated module: the fields that its variant has, mm and MPa
 Summation = Callable[[Real], Real]
+SAMPLED = 4.0  # times the rounding errors of a contact law, which are known at single values
 
 
 def unchanged(values: Real) -> Real:
@@ -221,6 +222,12 @@ class Model:
         by_constants = self._loss.module.margin_gradient(u, U_a, self._loss.constants)
         parts = type(by_constants)._make(summed(part + 0.0 * u) for part in by_constants)
         return {"U_a": 1.0 + 0.0 * u, **self._loss.gradient(parts)}
+
+    def law_roundoff(self, ratio: Real) -> Real:
+        """Return the relative rounding errors of an own contact law at closures over the roughness;
+        those of the package have none of their own."""
+        known = getattr(self.module, "rounding_errors", ((0.0,), (0.0,)))
+        return np.asarray(SAMPLED * np.interp(ratio, *known))
 
     def margin_terms(self, u: Real, U_a: Real) -> Real:
         """Return the sum of the absolute terms of the margin, in mm: times the unit roundoff it

@@ -2,6 +2,7 @@
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -234,3 +235,19 @@ def test_the_spelling_does_not_matter():
     assert normal("exp( -r )^2") == normal("exp(-r)**2")
     with pytest.raises(NotUnderstood, match="is not understood"):
         normal("r if r else r")
+
+
+def test_what_a_law_loses_by_rounding_is_not_resolved_with_loss_of_contact():
+    """Steps became ever shorter in its noise: a count to 1e-12 took minutes."""
+    numbers = {
+        "bearing": {"hardness_MPa": 51.5, "wear_coefficient": 6e-9, "roughness_mm": 0.0073,
+                    "roughness_growth": 0.23},
+        "pin": {"hardness_MPa": 600.0, "wear_coefficient": 1.2e-6, "roughness_mm": 3.9e-4,
+                "roughness_growth": -0.01},
+    }  # fmt: skip
+    changes = {f"{part}.{key}": x for part, rows in numbers.items() for key, x in rows.items()}
+    changes |= {"contact.max_pressure_MPa": 12.9, "contact.closure_mm": 0.01765}
+    scene = with_law(ALGEBRAIC, "section3-cutoff").with_(changes)
+    load = wear.Harmonics(-4.4e-3, (3.7e-3, -0.0103, 3e-4), (-2.9e-3, -1.6e-3, 5e-3), 0.378)
+    found = wear.solve(replace(scene, load=load), [10, 10**6, 10**11], rtol=1e-12)
+    assert found.cost["rhs_evaluations"] < 3e6

@@ -81,8 +81,11 @@ class ContactMode(NamedTuple):
         if not self.by_law:
             return np.asarray(steepest + self.cycles.swing)
         # A phase is rounded, too, and under a steep load the pressure with it.
-        sigma = roughness(self.cycles.model, u)
-        return np.maximum(1.0, BY_PHASE * steepest / (LAYER * sigma))
+        model, U_a = self.cycles.model, self.cycles.load(phase)
+        sigma = roughness(model, u)
+        of_law = model.law_roundoff(3.0 - model.margin(u, U_a) / sigma) / ROUNDOFF
+        by_phase = BY_PHASE * steepest / (LAYER * sigma)
+        return np.asarray(np.maximum(np.maximum(1.0, of_law), by_phase))
 
     def noise(
         self, u: FloatArray, U_a: FloatArray, rate: FloatArray, steepness: FloatArray
