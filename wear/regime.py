@@ -308,7 +308,7 @@ def _with_cutoff(case: _Case) -> Asymptote:
     if one_solid and case.holds(formula.gap_and_cutoff_grow_alike):
         return _at_one_third(case)
     if not one_solid:
-        return _steady(case, ("the peak of the load keeps contact at every wear",))
+        return _steady(case, ("no wear ends contact at the peak of the load",))
     permanent = float(case.value(formula.permanent_depth))
     said = f"contact is permanent beyond a wear of {max(permanent, 0.0):.6g} mm"
     return _steady(case, (said,))

@@ -101,7 +101,10 @@ def _closure_notices(scene: Scene) -> Iterator[str]:
             "outside 0 <= h of the text under (4)"
         )
     if scene.support is not None:
-        yield "the support gives way: the closure is that of the unloaded system, h_0 of Eq. (1)"
+        yield (
+            "closure_mm is the gap of the unloaded system, h_0 of Eq. (1); the support deflects "
+            "under load"
+        )
     elif first != 0.0:
         yield (
             f"U_a(0) = {first:.6g} mm is not zero: the run starts at the closure "
