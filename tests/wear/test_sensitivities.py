@@ -403,3 +403,18 @@ def test_where_increments_are_a_series_their_derivatives_are_one_too(
     assert taken[0] < 0.9 * taken[1]
     assert np.all(np.abs(by_series.derivative - each.derivative) <= by_series.error + each.error)
     assert np.all(by_series.elasticity_error <= 1e-11)
+
+
+def test_derivatives_where_contact_begins_with_the_cycle() -> None:
+    """Without wear contact begins at phase 0, and later with a little: the first node was on one
+    side, all others on the other, and the error estimated as large as the derivatives."""
+    scene, key = load_scene("section4-cutoff"), "contact.closure_mm"
+    found, closure = sensitivity(scene, [1, 100]), scene.closure
+    row = found.keys.index(key)
+    assert np.nanmax(found.elasticity_error) < 1e-9
+    wear = [
+        sweep([scene.with_({key: closure * (1 + n * 1e-6)})], [1, 100], 1e-13).u_c[0]
+        for n in range(3)
+    ]
+    difference = (4 * wear[1] - wear[2] - 3 * wear[0]) / (2e-6 * closure)
+    np.testing.assert_allclose(found.derivative[row], difference, rtol=1e-6)

@@ -23,7 +23,7 @@ from wear.loss_of_contact.arrest import RESOLVABLE
 from wear.loss_of_contact.contact import ContactPart
 from wear.loss_of_contact.edge import turning_points
 from wear.loss_of_contact.increments import Coordinate, IncrementSeries, increments, located
-from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap
+from wear.loss_of_contact.period_map import AT_ONCE, SwitchedPeriodMap, margin_roundoff
 from wear.numerics.chebyshev import chebyshev_analysis, chebyshev_nodes, chebyshev_values
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss
@@ -150,7 +150,10 @@ def map_derivatives(
 ) -> CycleDerivatives:
     """Return the derivatives of one cycle from each start (k,), mm."""
     tangent = np.zeros((len(starts), 1 + equation.parameters))
-    added, lasted = np.zeros((2, len(starts)))  # a cycle may begin in contact
+    added, (load,) = np.zeros(len(starts)), equation.loads
+    # A cycle may begin in contact; one that makes it at once makes it later if worn a little more.
+    margin = equation.model.margin(starts, load(0.0 * starts))
+    lasted = np.where(margin > margin_roundoff(equation.model, load.maximum, starts), 0.0, -1.0)
     few = AT_ONCE // len(cycle.rule.nodes)
     for at in range(0, len(starts), few):
         rows = slice(at, at + few)
