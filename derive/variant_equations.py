@@ -70,7 +70,7 @@ def opened(printed: Equation) -> Equation:
 
     >>> from derive.catalogue import equation
     >>> opened(equation("two-solids-rate")).definitions_latex[-1]
-    'g = 1 + \\kappa'
+    'g = 1 + \\\\kappa'
     """
     from .results.two_solids import TwoSolids
 

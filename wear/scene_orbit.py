@@ -11,6 +11,7 @@ from wear.numerics.gauss import FloatArray
 from wear.orbit.iterates import NEARLY
 from wear.orbit.problem import Cost
 from wear.orbit.segments import Orbit
+from wear.outcome import STOPS
 
 IDLES = "from cycle {} on a cycle adds less than double precision resolves"
 
@@ -24,7 +25,7 @@ class End(NamedTuple):
     way: str
 
     def __str__(self) -> str:
-        if self.cycle == 0:
+        if self.cycle == 0 and self.way == STOPS:
             return "no cycle adds wear"
         spread = f" (to within {self.uncertain})" if self.uncertain else ""
         return self.way.format(f"{self.cycle}{spread}")
