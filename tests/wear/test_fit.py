@@ -372,11 +372,19 @@ def test_a_bad_command_line_has_status_2_and_writes_nothing(tmp_path, capsys):
     file = tmp_path / "wear.csv"
     file.write_text("cycles,wear_mm\n3,-1\n")
     out = tmp_path / "out"
-    words = ["fit", str(file), "section4", "--free", "bearing.hardnes", "--error", "both",
+    words = ["fit", str(file), "section4", "--free", "bearing.hardnes,motion.sped", "--error",
+             "both",
              "--forecast", "0", "-o", str(out)]  # fmt: skip
     assert main(words) == 2
     said = capsys.readouterr().err
-    for word in ("line 2: wear_mm", "one reading", "bearing.hardnes", '"both"', "fresh state"):
+    for word in (
+        "line 2: wear_mm",
+        "one reading",
+        "bearing.hardnes: ",
+        "motion.sped: ",
+        '"both"',
+        "fresh state",
+    ):
         assert word in said
     assert not out.exists()
 

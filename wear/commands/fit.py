@@ -8,7 +8,7 @@ examples:
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -64,9 +64,10 @@ def execute(options: Options) -> Answer:
         faults.append("--posterior needs emcee: pip install 'derive-wear[fit]'")
     model = None
     if options.scene is not None:
-        asked = (options.free, options.free_each, options.error or ERRORS[0], options.ignore)
+        keys = _keys(options.free), _keys(options.free_each)
+        error = options.error or ERRORS[0]
         try:
-            model = FitModel.of(options.data, options.scene, *asked)
+            model = FitModel.of(options.data, options.scene, *keys, error, options.ignore)
         except UsageError as fault:
             faults.append(str(fault))
     faults.stop_if_any()
@@ -85,6 +86,11 @@ def execute(options: Options) -> Answer:
     if options.output is not None:
         _write(options.output, result, document, samples)
     return Answer(document, lambda: "\n".join(_lines(document)), document["notices"])
+
+
+def _keys(words: Sequence[str]) -> list[str]:
+    """Return the keys among some words, with spaces or commas between them."""
+    return " ".join(words).replace(",", " ").split()
 
 
 def _lines(document: dict[str, Any]) -> Iterator[str]:
