@@ -16,8 +16,7 @@ from wear.fitting.model import Parameter
 from wear.fitting.profiles import Profile
 from wear.numerics.gauss import FloatArray
 
-UNKNOWN = math.log(2.0)  # standard error of a logarithm, or relative to the size: known at best to
-# a factor of two
+UNKNOWN = math.log(2.0)  # standard error of the logarithm of an open combination: a factor of two
 ALIKE = 0.1  # relative spread of powers that are shown as one
 NEGLIGIBLE = 0.02  # power
 
