@@ -90,10 +90,10 @@ def fields_inside(
     if at.ndim != 1 or not at.size or not np.all((at >= 0.0) & (at <= 1.0)):
         faults.append("phases: give numbers from 0 to 1")
     check_rtol(rtol, faults)
-    if not is_number(chunk) or not chunk >= 1:
-        faults.append(f"chunk: {chunk!r} is not a number of states, at least 1")
+    if not (is_number(chunk) and 1 <= chunk < np.inf and chunk == int(chunk)):
+        faults.append(f"chunk: {chunk!r} is not a whole number of states, at least 1")
     faults.stop_if_any()
-    return _chunks(bind(scene), scene.load, wanted, at, rtol, chunk)
+    return _chunks(bind(scene), scene.load, wanted, at, rtol, int(chunk))
 
 
 def _chunks(

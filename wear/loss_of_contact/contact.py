@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.loss_of_contact.switching import Cycles, roughness
+from wear.loss_of_contact.switching import Cycles, undeflected
 from wear.numerics.collocation import NOISE
 from wear.numerics.floating_point import ROUNDOFF, TINY
 from wear.numerics.gauss import BoolArray, FloatArray, Gauss, IntArray
@@ -81,10 +81,10 @@ class ContactMode(NamedTuple):
         if not self.by_law:
             return np.asarray(steepest + self.cycles.swing)
         # A phase is rounded, too, and under a steep load the pressure with it.
-        model, U_a = self.cycles.model, self.cycles.load(phase)
-        sigma = roughness(model, u)
-        of_law = model.law_roundoff(3.0 - model.margin(u, U_a) / sigma) / ROUNDOFF
-        by_phase = BY_PHASE * steepest / (LAYER * sigma)
+        model = self.cycles.model
+        fields = undeflected(model, u, self.cycles.load(phase))
+        of_law = model.law_roundoff(fields.h / fields.sigma) / ROUNDOFF
+        by_phase = BY_PHASE * steepest / (LAYER * fields.sigma)
         return np.asarray(np.maximum(np.maximum(1.0, of_law), by_phase))
 
     def noise(

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wear.load import Constant, Harmonics, HistoryPart, Load, Sine, Table, Waves, waves
-from wear.model import Model, stacked
+from wear.model import Fields, Model, stacked
 from wear.numerics.floating_point import ROUNDOFF
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.numerics.rows import take
@@ -197,8 +197,11 @@ def phase_of(
     return np.asarray(phase)
 
 
+def undeflected(model: Model, u: FloatArray, U_a: FloatArray) -> Fields:
+    """Return the fields at each wear and displacement, on springs those of the unloaded system."""
+    return model.fields_under(0.0 * u, u, U_a) if model.compliant else model.fields(u, U_a)
+
+
 def roughness(model: Model, u: FloatArray) -> FloatArray:
     """Return the equivalent roughness (mm) at each wear; it does not depend on the pressure."""
-    none = np.zeros_like(u)
-    fields = model.fields_under(none, u, none) if model.compliant else model.fields(u, none)
-    return np.asarray(fields.sigma)
+    return np.asarray(undeflected(model, u, np.zeros_like(u)).sigma)
