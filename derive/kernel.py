@@ -19,6 +19,7 @@ References
 
 from __future__ import annotations
 
+import re
 import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable
@@ -40,6 +41,7 @@ from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
 _TOKEN = object()
+_OPTIONAL = re.compile(r"\[(.*?)\]")
 _PRESSURE, _PERIOD = symbol("p"), symbol("T")
 LIMIT_S = 60.0
 """Limit of CPU time for a symbolic step, in seconds."""
@@ -56,7 +58,7 @@ def listed(labels: Iterable[str]) -> str:
     >>> listed(["(1)", "(2)", "(3)"])
     '(1), (2) and (3)'
     """
-    *first, last = dict.fromkeys(labels) or ("no others",)
+    *first, last = dict.fromkeys(labels) or ("",)
     return f"{', '.join(first)} and {last}" if first else last
 
 
@@ -79,7 +81,9 @@ class Rule(ABC):
     from premises."""
 
     words = ""
-    """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``."""
+    """The sentence, with ``{0}`` for the first premise, ``{others}``, ``{all}``, ``{field}``.
+
+    What stands in square brackets is left out where there are no others."""
     alone = ""
     """The sentence without premises, if another one."""
     premise_names: ClassVar[tuple[str, ...]] = ()
@@ -103,6 +107,7 @@ class Rule(ABC):
         fields = {name: write(v) for name, v in vars(self).items() if isinstance(v, sp.Basic)}
         places = {"all": listed(labels), "others": listed(labels[1:])}
         words = self.words if labels or not self.alone else self.alone
+        words = _OPTIONAL.sub(r"\1" if labels[1:] else "", words)
         return words.format(*labels, **places, **fields)
 
 

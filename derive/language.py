@@ -30,7 +30,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Term, landau_o
 from .laws import GENERAL
 from .note.model import FIELDS, WEARING
-from .symbols import CLOCKS, DATA, QUANTITIES, symbol, t
+from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
 _HEADS = frozenset(
     (
@@ -42,14 +42,17 @@ _HEADS = frozenset(
         *(sp.Integer, sp.Rational, FirstZero, Drift, Oscillation, Continuous, SlowEquation),
     )
 )
-_MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS
+_MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS | EXTREMES
 _FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o"),
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
-_PARTS = {FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2}
+_PARTS = {
+    **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
+    **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
+}
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
 """Functions that have a value at every real argument."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
@@ -97,6 +100,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} is no limit for t -> oo"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
         return f"{node} has no {_PARTS[kind]} parts"
+    if kind is sp.Pow and node.base is sp.E:
+        return f"{node} is a power of e: write exp"
     if not all(variable.is_Symbol for variable in bound(node)):
         return f"{node} is by no variable"
     if kind is sp.Subs and not (node.expr.is_Derivative and isinstance(node.expr.expr, _LAW)):
@@ -106,6 +111,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
+    if isinstance(node, Term) and _clocks(node.args[-1]):
+        return f"{node} has a pace that varies"
     if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
         return f"{node} has no two ends"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):

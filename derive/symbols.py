@@ -145,6 +145,9 @@ DATA = frozenset(
 )
 """The independent parameters; all others are functions of them."""
 
+EXTREMES = frozenset(["U_max", "U_min"])
+"""The largest and the smallest load, which no definition may fix."""
+
 CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E"])
 """Symbols that vary in time; any other symbol is a constant."""
 

@@ -46,7 +46,7 @@ from ..rules.calculus import differentiate
 from ..rules.growth import intermittent
 from ..rules.inequalities import Arithmetic, Monotone
 from ..symbols import rate, symbols, t
-from .regime_map import OUTGROWN, ROUGHER, THIRD
+from .regime_map import OUTGROWN, ROUGHER, THIRD, TOUCHING
 from .steady_state import closure, named_limit, roughness, wear_rate, worn
 
 h_0, U_a, u_c, u_stop, U_max, U_min = symbols("h_0 U_a u_c u_stop U_max U_min")
@@ -68,7 +68,8 @@ margin = Insert(*stated("margin"))(name="margin and wear")
 margin_rate = Insert(*stated("margin-rate"))(assume(DIFFERENTIABLE), name="rate of the margin")
 """The time derivative of the margin: wear lowers it, a rising load raises it."""
 
-_at_peak = define(sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0))
+touching = assume(TOUCHING)
+_at_peak = define(sp.Eq(room.subs({u_c: u_stop, U_a: U_max}), 0), touching, outgrown)
 arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)))(
     Solve(u_stop)(_at_peak, outgrown), outgrown, name="arrest depth"
 )
@@ -77,7 +78,7 @@ arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)
 no_contact = Insert(*stated("no-contact"))(arrest_depth, name="margin and arrest depth")
 """Beyond the arrest depth the margin is negative at every load."""
 
-_at_lowest = define(sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0))
+_at_lowest = define(sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0), rougher)
 permanent_contact = Insert(sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1)))(
     Solve(u_perm)(_at_lowest, rougher), rougher, name="permanent contact"
 )

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..claims import Claim, Equality, Inequality, Limit, claim_of
+from ..claims import Claim, Equality, Inequality, Limit, Property, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
-from .proving import require, require_defined, smooth
+from .proving import lasts, require, require_defined, smooth
 from .reading import equality, replaced
 
 
@@ -36,12 +36,14 @@ class Substitute(Rule):
             taken = {variable} & known.relation.free_symbols - {t}
             if taken or known.lhs in bound_in(claim.relation) | {variable} - {t}:
                 raise RuleError(f"missing premise: {known.lhs} may take every value")
-            claim = _put(claim, known)
+            claim = _put(claim, known, lasts(definition))
         return Conclusion(claim)
 
 
-def _put(claim: Claim, known: Equality) -> Claim:
-    result = claim.map(lambda side: replaced(side, known.lhs, known.rhs))
+def _put(claim: Claim, known: Equality, always: bool) -> Claim:
+    if isinstance(claim, Property) and not always:
+        raise RuleError(f"missing premise: {known.lhs} = {known.rhs} at every time")
+    result = claim.map(lambda side: replaced(side, known.lhs, known.rhs, always))
     if result.relation.has(sp.zoo, sp.nan):
         raise RuleError(f"{claim.relation} has no value for {known.lhs} = {known.rhs}")
     return result
@@ -77,7 +79,7 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     for premise in premises:
         claim = premise.claim
         if isinstance(claim, Equality):
-            expr = replaced(expr, claim.lhs, claim.rhs)
+            expr = replaced(expr, claim.lhs, claim.rhs, lasts(premise))
         elif isinstance(claim, Limit) and claim.value.is_finite is not False:
             expr = replaced(expr, claim.term, claim.value)
     return expr

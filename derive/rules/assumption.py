@@ -7,15 +7,15 @@ from collections.abc import Callable
 import sympy as sp
 
 from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
-from ..hypotheses import Hypothesis, Kind
+from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..note.model import FIELDS, START, WORDS, law_of
 from ..reals import holds
-from ..symbols import DATA, symbol, t
+from ..symbols import DATA, EXTREMES, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
-from .proving import everywhere, facts_of, in_words, is_contact_law, smooth, undefined
+from .proving import in_words, is_contact_law, lasting_facts, lasts, smooth, undefined
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -26,9 +26,10 @@ _MEANT = {
     symbol("f_aa"): symbol("f_a"),
     symbol("f_cc"): symbol("f_c"),
     symbol("rho"): symbol("f_c") * symbol("u_cum"),
+    symbol("U_mean"): sp.Integral(LOAD, (t, 0, symbol("T"))) / symbol("T"),
 }
-"""Names of the model and of the expansion with the only definitions that they may have."""
-_GIVEN = DATA | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
+"""Names of the model, its load and the expansion with the only definitions that they may have."""
+_GIVEN = DATA | EXTREMES | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
 """Names that have a meaning already: data, and names that rules use."""
 _AT_EVERY_TIME = ((t,), (symbol("tau"),))
 
@@ -75,6 +76,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     condition, or if the name is not new.
     """
     name, value = relation.args
+    if not name.is_Symbol:
+        name, value = _solved(relation) or relation.args
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
     if implicit is None:
         _require_name(name, value, premises)
@@ -82,8 +85,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)
-    facts = facts_of(premises)
-    goals = [*undefined(whole.xreplace(terms), *premises)]
+    facts = lasting_facts(premises)
+    goals = [*undefined(whole.xreplace(terms), *premises, always=True)]
     if implicit is None and sign is not None:
         above = sign.func
         if not holds(above(inserted(value, premises), 0), facts):
@@ -99,9 +102,9 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
     now = at_an_instant(value)
     if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    if now != _MEANT.get(name, now):
+    if value != _MEANT.get(name, value):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
-    expr = inserted(now, tuple(filter(everywhere, premises)))
+    expr = inserted(now, tuple(filter(lasts, premises)))
     rates = {field: sp.Derivative(field, t) for field in fields(expr)}
     change = inserted(sp.Add(*(sp.diff(expr, f) * rate for f, rate in rates.items())), premises)
     varies = clocks(expr) or any(d.has(t) for d in expr.atoms(sp.Derivative))
@@ -111,21 +114,31 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
         raise RuleError(f"missing premise: {now} is constant")
 
 
-def _solvable(relation: sp.Equality) -> sp.Expr | None:
-    """Return an equation between new unknowns that has a solution for all data, else None.
+def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
+    """Return the only new name in an equation between constants that is linear in it, and the
+    value that solves it; None for any other equation."""
+    whole = relation.lhs - relation.rhs
+    new = {s for s in whole.free_symbols if s.name not in _GIVEN and s not in _MEANT}
+    if len(new) != 1 or not constant(whole) or functions(whole):
+        return None
+    (name,) = new
+    slope = sp.diff(whole, name)
+    return None if slope.has(name) else (name, -whole.subs(name, 0) / slope)
 
-    The unknowns are the fields beyond the model, their rates and the new names; each is replaced
-    by a variable.  The equation, or the expression whose limit it gives, must be linear in them.
-    Either zero solves it, or it has no limit and no rate, and one unknown, of any sign, has a
-    factor that is never zero and occurs in it once.
+
+def _solvable(relation: sp.Equality) -> sp.Expr | None:
+    """Return an equation between new fields that has a solution for all data, else None.
+
+    The unknowns are the fields beyond the model and their rates; each is replaced by a variable.
+    The equation, or the expression whose limit it gives, must be linear in them.  Either zero
+    solves it, or it has no limit and no rate, and one unknown, of any sign, has a factor that is
+    never zero and occurs in it once.
     """
     tends = isinstance(relation.lhs, sp.Limit)
     whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
     fields = {f for f in functions(whole) if f.func not in FIELDS}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
-    free = () if functions(whole) or clocks(whole) else whole.free_symbols
-    names = {s for s in free if s.name not in _GIVEN and s not in _MEANT}
-    parts = (*rates, *fields - {d.expr for d in rates}, *names)
+    parts = (*rates, *fields - {d.expr for d in rates})
     own = {part: sp.Dummy(real=True) for part in parts}
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
@@ -139,7 +152,8 @@ def _solvable(relation: sp.Equality) -> sp.Expr | None:
     solved = any(
         slope.is_nonzero
         and not part.is_nonnegative
-        and (part.is_Symbol or (heads.count(part.func) == 1 and part.args in _AT_EVERY_TIME))
+        and heads.count(part.func) == 1
+        and part.args in _AT_EVERY_TIME
         for part, slope in slopes.items()
     )
     return flat if solved and not tends and not rates else None

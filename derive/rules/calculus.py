@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..claims import Continuous, Equality, Inequality
+from ..claims import Equality, Inequality
 from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..note.model import SUPPORT
 from ..symbols import symbols, t
-from .proving import continuous, everywhere, facts_of, require, require_defined, smooth
+from .proving import continuous, lasts, require, require_defined, smooth
 from .reading import (
     clocks,
     constant,
@@ -93,8 +93,8 @@ class Differentiate(Rule):
         if not smooth(given.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
         rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
-        lasts = everywhere(premises[0]) or Continuous(given.lhs) in facts_of(premises)
-        single = {given.lhs} & fields(given.lhs) if lasts else ()  # has the other side's rate
+        # A field that equals the other side at every time has its rate.
+        single = {given.lhs} & fields(given.lhs) if lasts(premises[0]) else ()
         require_defined(sp.Tuple(*rates[len(single) :]), *premises)
         return Conclusion(Equality(*rates))
 

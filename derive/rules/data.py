@@ -46,7 +46,7 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
             fixed = not _leaves_data_free(relation) or subject(relation) in modelled
         else:
             about = parameter.name in _data_of(relation, definitions)
-            fixed = about and kind is not Kind.DEFINITION and not open_set(relation)
+            fixed = about and kind is not Kind.DEFINITION and not _is_open(relation, definitions)
         if fixed:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
 
@@ -59,6 +59,15 @@ def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
         about = about.union(name for group in defining for name, _ in group)
     of_fields = any(functions(known) for known in definitions if about & defined_by(known))
     return DATA if of_fields else about & DATA
+
+
+def _is_open(relation: sp.Basic, definitions: Collection[sp.Basic]) -> bool:
+    """Return whether a relation holds on an open set of data, with the names in it written out."""
+    values = {known.lhs: known.rhs for known in definitions if isinstance(known, sp.Equality)}
+    while (told := relation.xreplace(values)) != relation:
+        relation = told
+    implicit = frozenset[str]().union(*map(defined_by, definitions))
+    return implicit.isdisjoint(name for name, _ in names(relation)) and open_set(relation)
 
 
 def _leaves_data_free(relation: sp.Basic) -> bool:
@@ -88,7 +97,7 @@ class DataDerivative(Rule):
 
     claim: sp.Equality
     parameter: sp.Symbol
-    words = "Differentiate {0} with respect to {parameter}, with {others}."
+    words = "Differentiate {0} with respect to {parameter}[, with {others}]."
     premise_names = ("the result",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:

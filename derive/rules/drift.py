@@ -158,29 +158,38 @@ class LeadingTerm(Rule):
         s = next(iter(fields(given.rhs)), t)
         pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else t
         require_defined(leading, *premises)
-        small, facts = sp.Dummy("s", positive=True), facts_of(premises)
-        fallen = (x for x in given.relation.free_symbols - {t} if holds(sp.Lt(x, 0), facts))
-        flat = {s: small} | {x: -sp.Dummy(positive=True) for x in fallen}
-        claimed, cycles = (e.xreplace(flat) for e in (sp.exp(leading), given.rhs / pace))
-        slope = sp.diff(cycles, small)
+        small = sp.Dummy("s", positive=True)
+        worn, cycles = (e.xreplace({s: small}) for e in (leading, given.rhs / pace))
+        slope, claimed = sp.diff(cycles, small), sp.diff(worn, small)
         moving = cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
-        if moving or not constant(sp.Tuple(pace, claimed, slope)):
+        if moving or not constant(sp.Tuple(pace, worn, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         require(sp.Ne(pace, 0), *premises)
         require(sp.Ge(s, 0), *premises)
-        if _end(claimed, small) != sp.oo:
-            raise RuleError(f"missing premise: {leading} grows without bound")
-        if _end(slope / sp.diff(claimed, small), small) != 1:
+        falls = (_at_zero(small**order * claimed, small, *premises) for order in (1, 2))
+        if not any(fall and holds(sp.Lt(fall, 0), facts_of(premises)) for fall in falls):
+            raise RuleError(f"missing premise: {leading} grows without bound, like 1/s or ln(1/s)")
+        quotient = _at_zero(slope / (sp.exp(worn) * claimed), small, *premises)
+        if quotient is None or not is_zero(quotient - 1):
             raise RuleError("missing premise: the quotient of the slopes tends to one")
         return Conclusion(Asymptotic(left, leading, s, sp.S.Zero))
 
 
-def _end(expr: sp.Expr, small: sp.Dummy) -> sp.Expr:
-    """Return the limit for small -> 0+ of a quotient, whose exponentials are merged into one; NaN
-    if SymPy finds none."""
-    expr = expr.replace(sp.exp, lambda argument: sp.exp(sp.expand(sp.cancel(argument))))
-    expr = sp.powsimp(sp.expand(sp.together(expr)))
-    try:
-        return sp.limit(sp.factor(sp.powsimp(expr)), small, 0, "+")
-    except NotImplementedError:
-        return sp.nan
+def _at_zero(expr: sp.Expr, small: sp.Dummy, *premises: Judgement) -> sp.Expr | None:
+    """Return the limit of an expression for small -> 0+, if it is continuous there as a function
+    of ``small`` and of e^(-a/small) with some a > 0."""
+    fading: dict[sp.Expr, sp.Symbol] = {}
+    facts = facts_of(premises)
+
+    def exponential(argument: sp.Expr) -> sp.Expr:
+        whole = sp.expand(sp.cancel(argument))
+        pole = whole.coeff(small, -1)
+        size = next((a for a in (pole, -pole) if holds(sp.Gt(a, 0), facts)), sp.S.Zero)
+        if size == 0:
+            return sp.exp(whole)
+        fades = fading.setdefault(size, sp.Dummy(positive=True))
+        return sp.exp(whole - pole / small) * fades ** (-pole / size)
+
+    ratio = sp.cancel(sp.powsimp(sp.expand(expr)).replace(sp.exp, exponential))
+    ends = dict.fromkeys((small, *fading.values()), sp.S.Zero)
+    return ratio.subs(ends) if continuous(ratio, ends, *premises) else None

@@ -107,8 +107,8 @@ class Passes(Rule):
 
     claim: sp.Equality
     words = (
-        "Let time tend to infinity in {0}: the limit in {others} passes through a function that "
-        "is continuous at the limit."
+        "Let time tend to infinity in {0}[, with {others}]: limits pass through functions that are "
+        "continuous at them."
     )
 
     def conclude(self, *premises: Judgement) -> Conclusion:

@@ -5,6 +5,7 @@ Overview
     ``require_defined`` requires values of denominators, roots, logarithms and integrals.
 Key results
     facts_of                 the facts in premises
+    lasts                    whether a claim holds at every time, lasting_facts those that do
     require                  RuleError unless a relation follows from premises
     require_defined          RuleError unless every part of an expression has a value
     undefined                the relations that are missing
@@ -13,7 +14,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from functools import cache
 
 import sympy as sp
@@ -29,10 +30,12 @@ from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
 from ..symbols import symbols, t
-from .reading import constant, functions
+from .reading import clocks, constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
+#: Heads of expressions that are linear in each of their parts.
+_LINEAR = (sp.Add, sp.Mul)
 #: Functions that are differentiable wherever they have a value; roots but at 0.
 _SMOOTH = (
     *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, AppliedUndef),
@@ -45,10 +48,14 @@ _CONTINUOUS = (
 )
 
 
+_LATE = (Asymptotic, Limit)
+"""Claims on what happens in the limit alone."""
+
+
 def facts_of(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     """Return the facts in premises: claims, hypotheses, and that all parts of claims are
     defined."""
-    return _said(premises) | _lasting(premises) | _supposed(premises)
+    return _said(premises) | lasting_facts(premises) | _supposed(premises)
 
 
 def _said(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
@@ -60,24 +67,44 @@ def _supposed(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     return frozenset(h.relation for premise in premises for h in premise.hypotheses)
 
 
-def _lasting(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+def lasting_facts(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     """Return the facts at every time, and which fields are continuous by them."""
-    found = {relation for relation in _supposed(premises) if not _tied(relation)}
-    found |= _said([*filter(everywhere, premises)])
-    return frozenset(found.union(map(Continuous, _continuous_fields(found))))
+    found = _untied(premises) | _said([*filter(lasts, premises)])
+    return found.union(map(Continuous, _continuous_fields(found)))
 
 
-def everywhere(judgement: Judgement) -> bool:
+def _untied(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+    return frozenset(relation for relation in _supposed(premises) if not _tied(relation))
+
+
+@cache
+def lasts(judgement: Judgement) -> bool:
     """Return whether a claim holds at every time, not only where rates have a value.
 
-    So it does if no hypothesis ties fields to rates, and as an equality of continuous fields.
+    So does what follows from such claims alone, if no hypothesis ties fields to rates; and, since
+    other times are limits of these, an equality or bound of continuous expressions that have values
+    at every time.
     """
-    claim = judgement.relation
-    lasts = isinstance(judgement.claim, Property) or not functions(claim)
-    if lasts or not any(map(_tied, _supposed([judgement]))):
+    claim, parents = judgement.relation, judgement.parents
+    moving = functions(claim) or clocks(claim)
+    if isinstance(judgement.claim, (*_LATE, Property)) or not moving:
+        return True
+    if _rates(claim):
+        return False
+    known = [*filter(lasts, parents)]
+    if len(known) == len(parents) and not any(map(_tied, _supposed([judgement]))):
         return True
     closed = isinstance(claim, (sp.Equality, sp.GreaterThan, sp.LessThan))
-    return closed and all(_unbroken(side, ()) for side in claim.args)
+    facts = _untied([judgement]) | _said(known)
+    return (
+        closed
+        and all(_unbroken(side, ()) for side in claim.args)
+        and all(holds(goal, facts) for goal in _needed(claim, _parts(known), facts))
+    )
+
+
+def _rates(expr: sp.Basic) -> set[sp.Basic]:
+    return {d for d in expr.atoms(sp.Derivative) if functions(d)}
 
 
 @cache
@@ -94,7 +121,7 @@ def _tied(relation: sp.Basic) -> bool:
     return rates and fields
 
 
-def _continuous_fields(facts: set[sp.Basic]) -> set[sp.Basic]:
+def _continuous_fields(facts: Set[sp.Basic]) -> set[sp.Basic]:
     """Return the continuous fields: by a fact, or as they equal a continuous expression."""
     found = {fact.args[0] for fact in facts if isinstance(fact, Continuous)}
     found |= {LOAD} if DIFFERENTIABLE.relation in facts else set()
@@ -114,8 +141,7 @@ def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
 
 def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
     """Return the parts of claims that have a value at every time, not only in the limit."""
-    late = (Asymptotic, Limit)
-    wholes = (premise.relation for premise in premises if not isinstance(premise.claim, late))
+    wholes = (premise.relation for premise in premises if not isinstance(premise.claim, _LATE))
     ends = (premise.claim for premise in premises if isinstance(premise.claim, Limit))
     return {
         *(part for whole in wholes for part in certain(whole)),
@@ -141,19 +167,23 @@ def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basi
 
 def in_words(goal: sp.Basic) -> str:
     """Return a relation as text; one that states the existence of a value, in words."""
+    if goal == sp.false:
+        return "every part has a value"
     return f"{goal.args[0]} has a value" if goal.has(sp.zoo) else str(goal)
 
 
 def undefined(
-    expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()
+    expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = (), always: bool = False
 ) -> Iterator[sp.Basic]:
     """Yield the conditions for an expression to be defined that remain unproved.
 
-    Those that follow from premises, or from the existence of ``near``, are omitted.
+    Those that follow from premises, or from the existence of ``near``, are omitted; ``always``,
+    those that follow at every time.
     """
+    premises = tuple(filter(lasts, premises)) if always else premises
     ends = {part for whole in near for part in certain(whole)}
-    facts = facts_of(premises).union(*map(implied_by, ends))
-    needed = _needed(expr, _parts(premises) | ends, _lasting(premises))
+    facts = (lasting_facts if always else facts_of)(premises).union(*map(implied_by, ends))
+    needed = _needed(expr, _parts(premises) | ends, lasting_facts(premises))
     return (goal for goal in needed if not holds(goal, facts))
 
 
@@ -166,7 +196,10 @@ def _needed(
     parts = () if isinstance(expr, sp.Derivative) else expr.args
     hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t}}
     parts = tuple(part.xreplace(hidden) for part in parts)  # unknown to premises
-    goals = [goal for part in parts for goal in _needed(part, known, facts)]
+    over_time = isinstance(expr, sp.Integral) and t in bound(expr)  # what holds at all times counts
+    goals = [goal for part in parts for goal in _needed(part, () if over_time else known, facts)]
+    if over_time:
+        goals = [goal.xreplace({t: sp.Dummy()}) for goal in goals if not holds(goal, facts)]
     if isinstance(expr, sp.Integral):
         s, low, high = expr.xreplace(hidden).limits[0]
         beyond = [sp.And(relation(s, low), relation(s, high)) for relation in (sp.Lt, sp.Gt)]
@@ -194,7 +227,12 @@ def _between(
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
-    """Return the relations where pieces of an integrand are continuous."""
+    """Return the relations where pieces of an integrand are continuous; a rate is integrable, but
+    its powers need not be."""
+    if body.has(s) and not isinstance(body, (*_LINEAR, sp.Derivative)) and _rates(body):
+        return [sp.false]
+    if isinstance(body, sp.Mul) and len([*filter(_rates, body.args)]) > 1:
+        return [sp.false]
     if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
         now = body.func(t)
         goals = [] if now in WEARING else [Continuous(now)]
@@ -209,17 +247,20 @@ def continuous(
     at: Mapping[sp.Basic, sp.Expr],
     *premises: Judgement,
     but: Collection[sp.Basic] = (),
+    always: bool = False,
 ) -> bool:
     """Return whether an expression is continuous in some unknowns at a point.
 
     It must consist of continuous functions that are defined at the point and near it.  Facts about
-    the quantities ``but`` are not used.
+    the quantities ``but`` are not used, nor, ``always``, those that do not hold at every time.
     """
+    premises = tuple(filter(lasts, premises)) if always else premises
     plain = {unknown: sp.Dummy(real=True) for unknown in at}
     known = {part for part in _parts(premises) if not part.has(*but)}
     goals = continuity(expr.xreplace(plain), set(plain.values()), known)
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
-    facts = frozenset(fact for fact in facts_of(premises) if not fact.has(*but))
+    facts = lasting_facts(premises) if always else facts_of(premises)
+    facts = frozenset(fact for fact in facts if not fact.has(*but))
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 
 

@@ -113,7 +113,8 @@ def constant(expr: sp.Basic) -> bool:
 
 def clocks(expr: sp.Basic) -> set[sp.Basic]:
     """Return the symbols in an expression that vary in time, and time itself outside of fields."""
-    still = {part: sp.Dummy() for part in expr.atoms(AppliedUndef, Drift) if not _by_clock(part)}
+    parts = functions(expr) | expr.atoms(Drift)
+    still = {part: sp.Dummy() for part in parts if not _by_clock(part)}
     free = expr.xreplace(still).free_symbols
     return {s for s in free if s.name in CLOCKS and not isinstance(s, sp.Dummy)}
 
@@ -132,13 +133,17 @@ def at_an_instant(expr: sp.Basic) -> sp.Basic:
     return expr.xreplace({e: sp.Dummy() for e in found - moving | expr.atoms(Drift)})
 
 
-def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
-    """Return an expression with a part replaced by another that is equal at every time.
+def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) -> sp.Basic:
+    """Return an expression with a part replaced by another that is equal: ``always``, or wherever
+    rates have a value.
 
     RuleError if the part is in the scope of a bound variable that occurs in one of them, or inside
-    a derivative with respect to a datum, for which the equality need not hold.
+    a derivative with respect to a datum, for which the equality need not hold; or, unless it always
+    holds, inside a rate.
     """
-    found = (node for node in sp.preorder_traversal(expr) if node.has(old) and node != old)
+    found = [node for node in sp.preorder_traversal(expr) if node.has(old) and node != old]
+    if not always and any(isinstance(node, sp.Derivative) for node in found):
+        raise RuleError(f"missing premise: {old} = {new} at every time")
     touched = [node for node in found if bound(node)]
     taken = {v for node in touched for v in bound(node)}
     if not (clocks(old) | clocks(new)) - {t}:

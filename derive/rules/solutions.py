@@ -21,7 +21,7 @@ from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import continuous, everywhere, facts_of, require, require_defined, smooth
+from .proving import continuous, facts_of, lasting_facts, lasts, require, require_defined, smooth
 from .reading import (
     constant,
     equality,
@@ -43,15 +43,15 @@ class Follows(Rule):
     premise_names = ("the equation of the pressure",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        given, facts = equality(premises[0]), facts_of(premises)
+        given, facts = equality(premises[0]), lasting_facts(premises)
         p = sp.Dummy("p", positive=True)
         value = given.rhs.xreplace({PRESSURE: p})
         moving = {unknown: unknown for unknown in (p, *fields(value))}
         still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})
         known = given.lhs == PRESSURE and constant(still) and smooth(value, p)
         increases = known and sign(1 - sp.diff(value, p), facts) == 1
-        lasts = increases and everywhere(premises[0])
-        if not lasts or not continuous(value, moving, *premises):
+        only = increases and lasts(premises[0])
+        if not only or not continuous(value, moving, *premises, always=True):
             raise RuleError(f"missing premise: {PRESSURE} is the only root of an equation")
         for field in fields(value) - {*WEARING}:
             if Continuous(field) not in facts:

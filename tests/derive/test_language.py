@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 
-from derive.claims import Continuous, FirstZero, SlowEquation, landau_o
+from derive.claims import Continuous, Drift, FirstZero, SlowEquation, landau_o
 from derive.hypotheses import Kind
 from derive.kernel import RuleError, replay_fault
 from derive.laws import TANH, ContactLaw, r
@@ -86,6 +86,9 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (h_0 + Between(), "of no kind"),
     (Positive("f_c", real=True), "of no kind"),
     (with_a_slope_of_its_own(), "of no kind"),
+    (sp.log(h_0 / q, 2, evaluate=False), "no 1 parts"),
+    (sp.Pow(sp.E, f_c, evaluate=False), "power of e"),
+    (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "pace that varies"),
     (sp.Limit(WIGGLE, t, 0), "no limit for t"),  # nothing of the end follows
     (sp.Limit(f_c / k, k, sp.oo), "no limit for t"),
     (sp.sign(theta), "of no kind"),
@@ -187,7 +190,6 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, sp.Eq(u_c, h_0), "is a new name"),  # u_c = 1
     (Kind.DEFINITION, sp.Eq(f_c, 5), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, sp.Eq(f_c * h_0, 3), "is a new name"),  # f_c = 1
-    (Kind.DEFINITION, sp.Eq(f_c * b_0, 3), "is a new name"),  # f_c = 0
     (Kind.DEFINITION, equal(b_0, b_0 + 1), "is a new name"),
     (Kind.DEFINITION, equal(f_c**2 + b_0**2, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(sp.exp(b_0), f_c), "is a new name"),  # f_c = -1
@@ -200,9 +202,12 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
     (Kind.MODEL, contact(ContactLaw("", kinked(r**4 + r**2), sp.S.Zero, "")), "smooth"),
-    (Kind.DEFINITION, equal(kappa * f_c, 0), "is a new name"),  # f_c = 1
+    (Kind.DEFINITION, equal(kappa * f_c, 0), "contradict"),  # f_c = 1
     (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1
-    (Kind.DEFINITION, equal(kappa + p_max, 0), "is a new name"),
+    (Kind.DEFINITION, equal(kappa + p_max, 0), "contradict"),
+    (Kind.DEFINITION, equal(kappa + b_0, 0), "is a new name"),  # of which b_0 is negative
+    (Kind.DEFINITION, equal(symbol("U_max"), h_0), "is a new name"),  # U_a = 2 h_0
+    (Kind.DEFINITION, equal(symbol("U_mean"), h_0), "U_mean is"),  # U_a = 2 h_0
     (Kind.DEFINITION, equal(SWAYS, (1 + WIGGLE**2) / T), "is a new name"),  # tan(t/T)
     (Kind.DEFINITION, equal(SWAYS, C), "is a new name"),  # of a rate no solution is asked for
     (Kind.DEFINITION, equal(sp.Derivative(POSITIVE, t), -C), "is a new name"),
@@ -214,7 +219,6 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(symbol("f_cc"), 0), "f_cc is f_c"),  # the roughness grows
     (Kind.DEFINITION, equal(symbol("rho"), h_0), "rho is f_c"),  # of the slow time
     (Kind.DEFINITION, equal(symbol("p_s"), p_max / 2), "is a new name"),  # int 1/(p_s - p_max)
-    (Kind.DEFINITION, equal(2 * C, f_c * h_0), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
     (Kind.DEFINITION, equal(t, 5), "t is T"),  # t = 4
     (Kind.DEFINITION, equal(N, u_c / h_0), "N is t/T"),  # u_c = -h_0 t/T
@@ -236,7 +240,7 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(f_c * b_0, 0)),
     (Kind.DEFINITION, equal(symbol("f_cc"), f_c)),
     (Kind.DEFINITION, equal(f_c * WIGGLE, 0)),
-    (Kind.DEFINITION, equal(kappa + b_0, 0)),
+    (Kind.DEFINITION, equal(symbol("U_max") + kappa, h_0)),
     (Kind.DEFINITION, equal(SWAYS, sp.Derivative(WIGGLE.subs(t, t + T), t))),
 )
 
@@ -247,6 +251,22 @@ def test_a_hypothesis_is_of_the_kind_that_it_is_called(
 ) -> None:
     with pytest.raises(RuleError, match=said):
         assume(supposed(relation, kind))
+
+
+@pytest.mark.parametrize(
+    ("relation", "condition"),
+    [
+        (equal(f_c * b_0, 3), sp.Ne(f_c, 0)),
+        (equal(2 * C, f_c * h_0), sp.Gt(f_c * h_0 / 2, 0, evaluate=False)),
+        (equal(q - symbol("U_max") / p_max, 0), sp.Gt(symbol("U_max") / p_max, 0, evaluate=False)),
+    ],
+    ids=str,
+)
+def test_a_definition_shows_what_its_value_supposes(
+    relation: sp.Equality, condition: sp.Basic
+) -> None:
+    shown = assume(supposed(relation, Kind.DEFINITION)).conditions
+    assert [hypothesis.relation for hypothesis in shown] == [condition]
 
 
 @pytest.mark.parametrize(("kind", "relation"), CALLED, ids=str)

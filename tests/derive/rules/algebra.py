@@ -5,10 +5,11 @@ from __future__ import annotations
 import sympy as sp
 
 from derive.claims import Continuous, FirstZero
-from derive.hypotheses import PERIODIC, SINE, Kind
+from derive.hypotheses import DIFFERENTIABLE, PERIODIC, SINE, Kind
 from derive.laws import EXPONENTIAL, TANH
 from derive.note.model import ARCHARD, CLOSURE, at_every_closure, contact
 from derive.note.model import START as STARTS
+from derive.reals import LAW as PHI
 from derive.rules.algebra import Consequence, Insert, Solve, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import RIGID, SPRINGS, differentiate
@@ -104,6 +105,11 @@ FAMILIES = (
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
         # d(h_0 N)/dt is h_0/T
         "another clock under the rate": ("for every", RATE, eq(u_c, h_0 * N)),
+        # G = 0, but for G(0) = h_0
+        "what is so wherever wear has a rate under a rate": ("at every time",
+            eq(rate("G"), C), ALMOST),
+        "what is so wherever wear has a rate as continuous": ("at every time",
+            given(Continuous(G)), ALMOST),
         "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
         # G = t/T
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, G)),
@@ -291,7 +297,7 @@ FAMILIES = (
         (u_stop, FirstZero(q - y, y), FirstRoot(FirstZero(q - y, y), sp.S.One)()),
         (b_0, forever(u_a), tends(u_a, h_0)), (b_0, sp.Integral(u_c, (t, 0, T))),
         (U_mean, sp.Integral(U_a, (t, 0, T)) / T),
-        (U_mean, sp.Integral(h, (t, 0, T)) / T, eq(h, h_0 - u_c)),
+        (b_0, sp.Integral(h, (t, 0, T)) / T, eq(h, h_0 - u_c)),
     ), {
         "t = 5, by definition": ("t is T", t, sp.Integer(5)),  # t = 4
         # u_c = h_0 t/T
@@ -305,9 +311,14 @@ FAMILIES = (
         # U_a jumps from 0 to 2 L
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
-        "what is constant wherever wear has a rate": ("is constant", b_0, G, ALMOST, eq(u_c, h_0)),
-        "the mean over all cycles so far": ("is constant", U_mean,  # N h_0 under U_a = h_0
+        "what is constant wherever wear has a rate": ("at every time", b_0, G, ALMOST,
+            eq(u_c, h_0)),
+        # sqrt(t/T) has no mean square of its rate
+        "the mean of the square of a rate": ("has a value", b_0,
+            sp.Integral(dU**2, (t, 0, T)), assume(DIFFERENTIABLE)),
+        "the mean over all cycles so far": ("is constant", b_0,  # N h_0 under U_a = h_0
             sp.Integral(U_a, (t, 0, N * T)) / T),
+        "the contact law at a time": ("is constant", theta, PHI(t / T)),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c < h_0), (2 * h_0, True))),
     }),
     Family(defined_as, (

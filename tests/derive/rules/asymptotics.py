@@ -168,6 +168,9 @@ FAMILIES = (
         "time in the equation": ("is about", FEW, LOG_N, FALLS, t / T),
         "fewer cycles for more wear": ("grows without bound", -FEW),
         "another factor": ("quotient of the slopes", 2 * FEW),
+        # half as many where b_0 = 0
+        "a factor that differs for one value": ("grows without bound",
+            FEW + sp.log((b_0**2 * L + 2 * sigma_c) / (b_0**2 * L + sigma_c))),
         "what wavers": ("grows without bound", FEW + sp.sin(1 / sigma_c)),
         "a roughness of either trend": ("f_c", FEW, LOG_N, sp.Ne(f_c, 0)),
         "a name that may be zero": ("b_0", FEW + 1 / b_0),

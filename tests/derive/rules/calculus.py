@@ -46,6 +46,7 @@ from tests.derive.judgements import (
     integral,
     le,
     lt,
+    ne,
     opened,
     supposed,
     times,
@@ -224,6 +225,7 @@ FAMILIES = (
         (equal(SLOPE, h_0), beside(*FACTORS, eq(p, p_max * sp.exp(-h / sigma)))),
         (equal(SLOPE, h_0), beside(*FIELDS, BOUNDED)),
         (equal(SLOPE, h_0), beside(gt(sp.sqrt(f_c), 1))),
+        (equal(SLOPE, h_0), beside(defined(q, 1 + f_c**2), gt(q, 2))),
     ), {
         "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
         "0/0 beside a slope": ("Ne", equal(SLOPE / (f_c - 1), h_0 / (f_c - 1))),
@@ -256,6 +258,10 @@ FAMILIES = (
             tied(le(sp.Abs(U_a), U + sp.Abs(TIE))), h_0),
         "two data tied by a piece": ("may vary", equal(IN_H_0, 0),
             tied(gt(sp.Piecewise((1, sp.Eq(h_0, f_c * L))), 0, evaluate=False)), h_0),
+        "two data tied by a bound of a name": ("may vary", equal(IN_H_0, 0),
+            tied(defined(q, sp.Piecewise((1, sp.Eq(h_0, f_c * L)), (2, True))), lt(q, 2)), h_0),
+        "two data tied by a name that may be any": ("may vary", equal(IN_H_0, 0),
+            tied(said(equal(theta * (f_c * L - h_0), 0), Kind.DEFINITION), ne(theta, 0)), h_0),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import sympy as sp
 
-from derive.claims import FirstZero
+from derive.claims import Continuous, FirstZero
 from derive.hypotheses import CONTINUOUS
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
+from derive.rules.calculus import differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.solutions import ByParts, FirstRoot, Lambert, Separate, follows
 from derive.symbols import initial, rate, symbols, t
@@ -33,12 +34,13 @@ from tests.derive.judgements import (
 )
 
 u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
-h_0, f_c, C, T, q, b_0, U, h_star = symbols("h_0 f_c C T q b_0 U h_star")
+h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
 p_max, theta, tau, u_stop, p_s, u_s = symbols("p_max theta tau u_stop p_s u_s")
 x = sp.Symbol("x", positive=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
+SQUARE, TURNS = eq(G, u_c**2 / L**2), ne(rate("G"), 0)
 WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
 
 
@@ -135,6 +137,13 @@ FAMILIES = (
         # p = p_max at t = 0 alone
         "the pressure wherever wear has a rate": ("the only root", Arithmetic(equal(p, q * u_c))(
             eq(p, q * u_c + h_0 * (du - C)), RATE)),
+        # p = 2 p_max at t = 1 alone, where u_c has the rate 0
+        "the only root wherever wear has a rate": ("the only root",
+            eq(p, p - G * (p - p_max)), given(Continuous(G)), Arithmetic(sp.Gt(G, 0))(
+                eq(G, T * du / h_0), gt(du, 0))),
+        "the only root where G has a rate": ("the only root",
+            eq(p, p - G * (p - p_max)), SQUARE, Arithmetic(sp.Gt(G, 0))(
+                differentiate(SQUARE), SQUARE, TURNS)),
         "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
@@ -145,6 +154,20 @@ FAMILIES = (
         # from p_max/2 to 2 p_max in a jump
         "between values of a pressure that jumps": ("p_max", given(p < p_max)),
         "beyond the largest pressure": ("p_max", follows(eq(p, q * U_a), assume(CONTINUOUS))),
+    }),
+    Family(lambda bound: ByParts(-1 / u_s)(eq(G, sp.Integral(u_s**-2, (u_s, u_c.subs(t, 0), u_c))),
+        bound), (gt(u_c, 0),), {
+        # u_c = L (t/T - 1)
+        "over a pole where wear has no rate": ("Ne", Arithmetic(sp.Ge(u_c**-2, 0, evaluate=False))(
+            eq(u_c, T * rate("u_a")), ne(rate("u_a"), 0))),
+        "over a pole where the square has no rate": ("Ne",
+            Arithmetic(sp.Ge(u_c**-2, 0, evaluate=False))(differentiate(SQUARE), TURNS)),
+    }),
+    Family(lambda apart: ByParts(-1 / (t - T))(
+        eq(G, sp.Integral((t - T) ** -2, (t, 0, 2 * T))), apart), (), {
+        # u_c = C (t - T)
+        "over a pole at an instant without a rate": ("Ne", Arithmetic(sp.Ne(t - T, 0))(
+            eq(u_c, C * (t - T)), differentiate(SQUARE), TURNS)),
     }),
     Family(lambda primitive, body, s=p_s, low=1,
         *facts: ByParts(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
