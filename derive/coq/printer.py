@@ -18,9 +18,7 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.str import StrPrinter
 
 from ..claims import Continuous, landau_o
-from ..symbols import QUANTITIES, symbol, t
-
-tau = symbol("tau")
+from ..symbols import CLOCKS, QUANTITIES, t
 
 _FUNCTIONS = {
     sp.tanh: "tanh", sp.exp: "exp", sp.log: "ln", sp.Abs: "Rabs", sp.cos: "cos", sp.sin: "sin",
@@ -88,6 +86,8 @@ class _CoqPrinter(StrPrinter):
         return str(super()._print(expr))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
+        if expr != t and expr.name in CLOCKS and not isinstance(expr, sp.Dummy):
+            raise UntranslatableError(f"a claim in {expr}, which varies in time")
         return quantity(expr)
 
     _print_Dummy = _print_Symbol
@@ -111,8 +111,6 @@ class _CoqPrinter(StrPrinter):
         return f"sqrt {_inner(base)}" if power == 1 else f"(sqrt {_inner(base)})^{power}"
 
     def _print_Function(self, expr: sp.Function) -> str:
-        if tau in expr.args:
-            raise UntranslatableError("a claim in scaled time")
         if expr.func == landau_o:
             raise UntranslatableError("an asymptotic relation")
         if expr.func not in _FUNCTIONS and not isinstance(expr, AppliedUndef):

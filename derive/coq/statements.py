@@ -25,7 +25,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..kernel import Judgement
-from ..symbols import QUANTITIES, t
+from ..symbols import CLOCKS, QUANTITIES, t
 from . import printer
 
 
@@ -67,12 +67,18 @@ class Statement:
 @cache
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError if Coq's library lacks its terms."""
-    relations = (judgement.relation, *(h.relation for h in judgement.hypotheses))
+    of_time = _clocks(judgement)
+    supposed = {h.relation.xreplace(of_time): h for h in judgement.hypotheses}
+    relations = (claim(judgement), *supposed)
     free = frozenset().union(*(relation.free_symbols for relation in relations))
-    premises = [_premise(f"for_{_words(h.text)}", h.relation) for h in judgement.hypotheses]
+    premises = [
+        _premise(f"for_{_words(hypothesis.text)}", relation)
+        for relation, hypothesis in supposed.items()
+        if relation != sp.true
+    ]
     premises += [
         _premise(f"domain_{printer.quantity(atom)}", relation)
-        for relation in (*judgement.domains, *_signs(judgement.relation))
+        for relation in (*judgement.domains, *_signs(relations[0]))
         if (atom := relation.args[0]).args == (t,) or atom in free - {t}
     ]
     rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
@@ -86,6 +92,12 @@ def statement(judgement: Judgement) -> Statement:
     ):
         premises += _LAW
     return Statement(_distinct(premises), conclusion)
+
+
+def _clocks(judgement: Judgement) -> dict[sp.Basic, sp.Expr]:
+    """Return what the names of clocks mean in time, like N = t/T: no constants of a world."""
+    equations = (h.relation for h in judgement.hypotheses if isinstance(h.relation, sp.Equality))
+    return {e.lhs: e.rhs for e in equations if e.lhs.is_Symbol and e.lhs.name in CLOCKS - {t.name}}
 
 
 def _premise(label: str, relation: sp.Basic) -> Premise:
@@ -135,13 +147,11 @@ def key(judgement: Judgement) -> str:
 
 @cache
 def claim(judgement: Judgement) -> sp.Basic:
-    """Return the claim, in which the derivative of a result is that of its function.
-
-    The first premise gives this function.
-    """
+    """Return the claim in terms of time, in which the derivative of a result is that of its
+    function, by the first premise."""
     slopes = [d for d in judgement.relation.atoms(sp.Derivative) if isinstance(d.expr, sp.Symbol)]
     if not slopes:
-        return judgement.relation
+        return judgement.relation.xreplace(_clocks(judgement))
     if not judgement.parents:
         raise printer.UntranslatableError(f"{slopes[0]} of no function that is known")
     given = judgement.parents[0].relation.rhs

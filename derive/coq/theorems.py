@@ -150,7 +150,7 @@ def _affine(expr: sp.Expr) -> _Affine | None:
 def _at_infinity(step: Step) -> Values | None:
     """Return A and B of ``u A(1/u) + load B(1/u)``, or exponentials that vanish."""
     inside, u = step.relation.lhs.args[0], step.diverging.relation.lhs.args[0]
-    z = sp.Symbol("z", positive=True)
+    z = sp.Dummy("z", positive=True)
     affine = _affine(inside.xreplace({u: 1 / z}))
     if affine is not None:
         (n, level), (m, slope) = expanded(affine.c0, z), expanded(affine.c1, z)

@@ -11,11 +11,12 @@ from derive import catalogue
 from derive.coq import export, printer, prove, refutations
 from derive.coq.statements import statement, world
 from derive.coq.steps import proved_by_coq, record
+from derive.rules.solutions import ByParts
 from derive.symbols import symbols, t
 from tests.derive.judgements import eq
 from tests.programs import ended
 
-h, sigma, p, p_max, U_a, f_c = symbols("h sigma p p_max U_a f_c")
+h, sigma, p, p_max, U_a, f_c, N = symbols("h sigma p p_max U_a f_c N")
 
 REQUIRED = ("8", "9", "10", "13", "14", "15", "17a", "17b", "18", "21", "22")
 
@@ -110,6 +111,17 @@ def test_a_statement_has_the_hypotheses_as_premises():
     relations = [premise.relation for premise in said.premises]
     assert all(h.relation in relations for h in ratio.hypotheses)
     assert said.conclusion.startswith("tends (fun t => ")
+
+
+def test_a_clock_is_no_constant():
+    """`N = t/T` at every t would be a contradiction, from which any claim follows."""
+    steps = catalogue.equation("saturating-wear").steps
+    (counted,) = (s for s in steps if isinstance(s.rule, ByParts) and N in s.relation.free_symbols)
+    said = statement(counted)
+    assert "N_" not in said.text
+    assert "M*f_c*t/T = " in said.conclusion
+    with pytest.raises(printer.UntranslatableError, match="N, which varies in time"):
+        printer.always(sp.Eq(N, 1))
 
 
 @pytest.mark.parametrize("identifier", REQUIRED)
