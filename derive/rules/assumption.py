@@ -89,7 +89,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     goals = [*undefined(whole.xreplace(terms), *premises, always=True)]
     if implicit is None and sign is not None:
         above = sign.func
-        if not holds(above(inserted(value, premises), 0), facts):
+        known = inserted(value, tuple(filter(lasts, premises)))
+        if not holds(above(known, 0), facts):
             goals.append(above(value, 0, evaluate=False))
     for goal in goals:
         if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
@@ -123,7 +124,8 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
         return None
     (name,) = new
     slope = sp.diff(whole, name)
-    return None if slope.has(name) else (name, -whole.subs(name, 0) / slope)
+    linear = smooth(whole, name) and not slope.has(name)
+    return (name, -whole.subs(name, 0) / slope) if linear else None
 
 
 def _solvable(relation: sp.Equality) -> sp.Expr | None:

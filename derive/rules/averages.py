@@ -150,7 +150,7 @@ class Averaging(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         law, (name, value) = equality(premises[0]), self.claim.args
-        known = {h.relation for h in premises[0].hypotheses}
+        known = {h.relation for h in premises[0].hypotheses if h.kind is Kind.DEFINITION}
         waves = {r.lhs: sp.S.Zero for r in known if isinstance(getattr(r, "rhs", 0), Oscillation)}
         of_wave = isinstance(law.lhs, sp.Derivative) and law.lhs.variables == (tau,)
         whole = law.lhs.args[0] if of_wave else law.lhs

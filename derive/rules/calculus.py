@@ -93,9 +93,9 @@ class Differentiate(Rule):
         if not smooth(given.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
         rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
-        # A field that equals the other side at every time has its rate.
-        single = {given.lhs} & fields(given.lhs) if lasts(premises[0]) else ()
-        require_defined(sp.Tuple(*rates[len(single) :]), *premises)
+        # A field that equals the other side at every time has its rate, if that always has a value.
+        single = lasts(premises[0]) and given.lhs in fields(given.lhs)
+        require_defined(sp.Tuple(*rates[single:]), *premises, always=single)
         return Conclusion(Equality(*rates))
 
 
@@ -145,8 +145,8 @@ class ChangeClock(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         scaled, clock = map(equality, premises)
         moving = [f for f in scaled.rhs.atoms(sp.Function) if f.args == (tau,)]
-        if (clock.lhs, clock.rhs) != (t, T * tau) or len(moving) != 1:
-            raise RuleError("missing premise: t = T tau")
+        if (clock.lhs, clock.rhs) != (t, T * tau) or len(moving) != 1 or not lasts(premises[0]):
+            raise RuleError("missing premise: t = T tau, and the scale of y at every time")
         factor = sp.cancel(scaled.rhs / moving[0])
         if not constant(factor):
             raise RuleError(f"missing premise: {factor} is constant")

@@ -185,7 +185,7 @@ def _at_zero(expr: sp.Expr, small: sp.Dummy, *premises: Judgement) -> sp.Expr | 
         whole = sp.expand(sp.cancel(argument))
         pole = whole.coeff(small, -1)
         size = next((a for a in (pole, -pole) if holds(sp.Gt(a, 0), facts)), sp.S.Zero)
-        if size == 0:
+        if size == 0 or pole.has(small, *fading.values()):
             return sp.exp(whole)
         fades = fading.setdefault(size, sp.Dummy(positive=True))
         return sp.exp(whole - pole / small) * fades ** (-pole / size)

@@ -29,7 +29,7 @@ from ..language import bound, certain, implied_by, needs
 from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
-from ..symbols import symbols, t
+from ..symbols import CLOCKS, symbols, t
 from .reading import clocks, constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
@@ -58,7 +58,7 @@ def facts_of(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     return _said(premises) | lasting_facts(premises) | _supposed(premises)
 
 
-def _said(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
+def _said(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     claims = (p.relation for p in premises if not isinstance(p.claim, Asymptotic))
     return frozenset(claims).union(*map(implied_by, _parts(premises)))
 
@@ -81,7 +81,7 @@ def _untied(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
 def lasts(judgement: Judgement) -> bool:
     """Return whether a claim holds at every time, not only where rates have a value.
 
-    So does what follows from such claims alone, if no hypothesis ties fields to rates; and, since
+    So does what follows from such claims alone, if no hypothesis ties rates to others; and, since
     other times are limits of these, an equality or bound of continuous expressions that have values
     at every time.
     """
@@ -109,16 +109,17 @@ def _rates(expr: sp.Basic) -> set[sp.Basic]:
 
 @cache
 def _tied(relation: sp.Basic) -> bool:
-    """Return whether a relation is of fields and of rates."""
-    parts, rates, fields = [relation], False, False
+    """Return whether a relation is of rates and of something else that varies."""
+    parts, rates, others = [relation], False, False
     while parts:
         part = parts.pop()
         if isinstance(part, sp.Derivative) and functions(part):
             rates = True
             continue
-        fields |= isinstance(part, AppliedUndef) and not isinstance(part, LAW)
+        others |= isinstance(part, AppliedUndef) and not isinstance(part, LAW)
+        others |= part.is_Symbol and part.name in CLOCKS
         parts += part.args
-    return rates and fields
+    return rates and others
 
 
 def _continuous_fields(facts: Set[sp.Basic]) -> set[sp.Basic]:
@@ -139,9 +140,12 @@ def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
     return composed and all(_unbroken(part, fields) for part in expr.args)
 
 
-def _parts(premises: Iterable[Judgement]) -> set[sp.Basic]:
-    """Return the parts of claims that have a value at every time, not only in the limit."""
-    wholes = (premise.relation for premise in premises if not isinstance(premise.claim, _LATE))
+def _parts(premises: Collection[Judgement], always: bool = False) -> set[sp.Basic]:
+    """Return the parts of claims that have a value wherever these hold, not only in the limit;
+    ``always``, of claims and hypotheses that hold at every time."""
+    wholes = {fact for fact in _untied(premises) if not fact.has(sp.Limit)} if always else set()
+    premises = [*filter(lasts, premises)] if always else premises
+    wholes |= {premise.relation for premise in premises if not isinstance(premise.claim, _LATE)}
     ends = (premise.claim for premise in premises if isinstance(premise.claim, Limit))
     return {
         *(part for whole in wholes for part in certain(whole)),
@@ -156,12 +160,15 @@ def require(goal: sp.Basic, *premises: Judgement) -> None:
         raise RuleError(f"missing premise: {goal}")
 
 
-def require_defined(expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = ()) -> None:
+def require_defined(
+    expr: sp.Basic, *premises: Judgement, near: Iterable[sp.Basic] = (), always: bool = False
+) -> None:
     """Raise RuleError unless every part of an expression has a value under the premises.
 
-    For a neighbourhood of the end of a limit, ``near`` are expressions defined there too.
+    For a neighbourhood of the end of a limit, ``near`` are expressions defined there too;
+    ``always``, it has a value at every time.
     """
-    for goal in undefined(expr, *premises, near=near):
+    for goal in undefined(expr, *premises, near=near, always=always):
         raise RuleError(f"missing premise: {in_words(goal)}")
 
 
@@ -180,15 +187,14 @@ def undefined(
     Those that follow from premises, or from the existence of ``near``, are omitted; ``always``,
     those that follow at every time.
     """
-    premises = tuple(filter(lasts, premises)) if always else premises
     ends = {part for whole in near for part in certain(whole)}
     facts = (lasting_facts if always else facts_of)(premises).union(*map(implied_by, ends))
-    needed = _needed(expr, _parts(premises) | ends, lasting_facts(premises))
+    needed = _needed(expr, _parts(premises, always) | ends, lasting_facts(premises))
     return (goal for goal in needed if not holds(goal, facts))
 
 
 def _needed(
-    expr: sp.Basic, known: Collection[sp.Basic], facts: Collection[sp.Basic] = ()
+    expr: sp.Basic, known: Collection[sp.Basic], facts: frozenset[sp.Basic] = frozenset()
 ) -> list[sp.Basic]:
     """Return the relations that give every part of an expression a value."""
     if expr in known:
@@ -254,12 +260,11 @@ def continuous(
     It must consist of continuous functions that are defined at the point and near it.  Facts about
     the quantities ``but`` are not used, nor, ``always``, those that do not hold at every time.
     """
-    premises = tuple(filter(lasts, premises)) if always else premises
     plain = {unknown: sp.Dummy(real=True) for unknown in at}
-    known = {part for part in _parts(premises) if not part.has(*but)}
+    known = {part for part in _parts(premises, always) if not part.has(*but)}
     goals = continuity(expr.xreplace(plain), set(plain.values()), known)
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
-    facts = lasting_facts(premises) if always else facts_of(premises)
+    facts = (lasting_facts if always else facts_of)(premises)
     facts = frozenset(fact for fact in facts if not fact.has(*but))
     return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
 

@@ -141,10 +141,10 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
     a derivative with respect to a datum, for which the equality need not hold; or, unless it always
     holds, inside a rate.
     """
-    found = [node for node in sp.preorder_traversal(expr) if node.has(old) and node != old]
-    if not always and any(isinstance(node, sp.Derivative) for node in found):
+    binders = [node for node in sp.preorder_traversal(expr) if bound(node) and node != old]
+    touched = [node for node in binders if node.has(old) or node.subs(old, new) != node]
+    if not always and any(isinstance(node, sp.Derivative) for node in touched):
         raise RuleError(f"missing premise: {old} = {new} at every time")
-    touched = [node for node in found if bound(node)]
     taken = {v for node in touched for v in bound(node)}
     if not (clocks(old) | clocks(new)) - {t}:
         taken -= {t}

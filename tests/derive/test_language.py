@@ -30,6 +30,7 @@ WIGGLE = sp.Function("wiggle", real=True)(t)
 WOBBLE = sp.Function("wobble", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
+STEPPED = sp.Piecewise((b_0, b_0 < 0), (b_0 + 1, True))
 
 
 class Lie(sp.Expr):  # type: ignore[misc]
@@ -191,6 +192,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, sp.Eq(f_c, 5), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, sp.Eq(f_c * h_0, 3), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(b_0, b_0 + 1), "is a new name"),
+    (Kind.DEFINITION, equal(STEPPED, f_c), "is a new name"),  # f_c = 1/2
     (Kind.DEFINITION, equal(f_c**2 + b_0**2, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(sp.exp(b_0), f_c), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(WIGGLE**2, -f_c), "is a new name"),  # f_c = 1

@@ -100,6 +100,12 @@ FAMILIES = (
         "nothing to insert": ("does not occur", SIDES, eq(b_0, q)),
         "a variable of integration": ("every value", integral(theta), eq(theta, b_0)),
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
+        # b_0 = 1/2, not 1/4, for x = h_0 = q = 1
+        "capture of a power by an integral": ("for every",
+            eq(b_0, q**2 + sp.Integral(q**4 * x, (x, 0, 1))), eq(q**2, x)),
+        # G = u_c', but 0 at rational times
+        "a rate under a second one": ("at every time",
+            eq(T * sp.Derivative(u_c, (t, 2)), C - rate("u_c")), eq(rate("u_c"), G)),
         # theta = 1: G = 3, not 3/2
         "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0

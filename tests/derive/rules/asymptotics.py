@@ -40,6 +40,7 @@ from tests.derive.judgements import (
     expansion_premises,
     first_order_terms,
     given,
+    gt,
     le,
     logarithmic,
     slow_time,
@@ -50,6 +51,7 @@ u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q b_0")
 U, L, R, A, rho, h_star, theta, tau, m = symbols("U L R A rho h_star theta tau m")
 c_1, w_1, s_0 = symbols("c_1 w_1 s_0")
+s = sp.Symbol("s", nonnegative=True)
 du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
@@ -203,6 +205,11 @@ FAMILIES = (
         "a multiple that may be zero": (r"Ne\(f_c, 0\)",
             lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))(
                 eq(f_c * G, f_c * q / sigma_c))),
+        # N = (1 + 1/e) L/sigma_c
+        "an exponential that does not fade": ("quotient of the slopes",
+            lambda: LeadingTerm(sp.Eq(LOG_N, -sp.log(sigma_c / L)))(
+                eq(N, sp.Integral((1 + sp.exp(-sp.tanh(s) / s)) / s**2, (s, sigma_c / L, 1))),
+                gt(sigma_c, 0))),
         # h = -1/10: half as many
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(

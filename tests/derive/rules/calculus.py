@@ -192,6 +192,9 @@ FAMILIES = (
         "the rate of the number of cycles": ("differentiable", eq(u_c, h_0 * N)),  # u_c = h_0 t/T
         # G = u_c + h_0 at t = 0 alone
         "the rate of what is so wherever wear has a rate": ("Derivative", ALMOST),
+        # u_c = t^2 sin(1/t)^2, of which the root has no rate at 0
+        "the rate of a root where wear has a rate": ("u_c", eq(h, sp.sqrt(u_c)),
+            Arithmetic(sp.Gt(u_c, 0))(eq(u_c, T**2 * da**2 / h_0), ne(da, 0))),
         "the rate of v(tau)": ("differentiable", eq(u_c, h_0 * v)),
         "the rate of an inequality": ("no equality", ge(h, 2 * u_c)),
     }),
@@ -215,6 +218,9 @@ FAMILIES = (
         "the rate of what jumps": ("Derivative", eq(h, h_0 * v)),  # h = h_0 v, a square wave
         # the left side is 0 to SymPy
         "the rate of w = q v, with time held": ("Derivative", eq(w, q * v)),
+        # v may be 0 at rational tau
+        "the scale where wear has a rate": ("at every time",
+            Arithmetic(equal(u_c, q * v))(eq(u_c, q * v + T * (du - C)), eq(du, C))),
         "another clock": ("t = T tau", SCALED, defined(N, t / T)),
         "an inequality in periods": ("no equality", ge(u_c, u_a)),
     }),

@@ -7,7 +7,7 @@ import sympy as sp
 from derive.claims import Continuous, FirstZero
 from derive.hypotheses import CONTINUOUS
 from derive.rules.algebra import Insert
-from derive.rules.assumption import assume
+from derive.rules.assumption import assume, defined
 from derive.rules.calculus import differentiate
 from derive.rules.inequalities import Arithmetic
 from derive.rules.solutions import ByParts, FirstRoot, Lambert, Separate, follows
@@ -36,7 +36,7 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
 p_max, theta, tau, u_stop, p_s, u_s = symbols("p_max theta tau u_stop p_s u_s")
-x = sp.Symbol("x", positive=True)
+x, z = sp.Symbol("x", positive=True), sp.Symbol("z", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
@@ -141,6 +141,9 @@ FAMILIES = (
         "the only root wherever wear has a rate": ("the only root",
             eq(p, p - G * (p - p_max)), given(Continuous(G)), Arithmetic(sp.Gt(G, 0))(
                 eq(G, T * du / h_0), gt(du, 0))),
+        "the only root by the name of a clock": ("the only root",
+            eq(p, p - G * (p - p_max)), given(Continuous(G)), Arithmetic(sp.Gt(G, 0))(
+                eq(G, z), defined(z, T * du / L), gt(du, 0))),
         "the only root where G has a rate": ("the only root",
             eq(p, p - G * (p - p_max)), SQUARE, Arithmetic(sp.Gt(G, 0))(
                 differentiate(SQUARE), SQUARE, TURNS)),
@@ -165,6 +168,7 @@ FAMILIES = (
     }),
     Family(lambda apart: ByParts(-1 / (t - T))(
         eq(G, sp.Integral((t - T) ** -2, (t, 0, 2 * T))), apart), (), {
+        "over a pole where another wear has no rate": ("Ne", ne(rate("u_a") * (t - T), 0)),
         # u_c = C (t - T)
         "over a pole at an instant without a rate": ("Ne", Arithmetic(sp.Ne(t - T, 0))(
             eq(u_c, C * (t - T)), differentiate(SQUARE), TURNS)),

@@ -26,14 +26,14 @@ from derive.laws import ContactLaw, r
 from derive.reals import sign
 from derive.results.steady_state import steady_state
 from derive.rules.algebra import substitute
-from derive.rules.assumption import assume
+from derive.rules.assumption import assume, defined
 from derive.rules.calculus import differentiate
 from derive.rules.limits import later, one_period_later
 from derive.rules.reading import replaced
 from derive.symbols import rate, symbol, symbols, t
 from derive.zero import is_zero
 from tests.derive import test_language
-from tests.derive.judgements import eq, ge, supposed
+from tests.derive.judgements import eq, ge, ne, supposed
 from tests.derive.rules import algebra, asymptotics, calculus, limits, solutions
 
 ROOM = Path(inspect.getfile(rules)).parent
@@ -153,6 +153,13 @@ def asked(path: Path) -> Iterator[int]:
 def test_special_values_stay_hypotheses() -> None:
     special = substitute(eq(h, f_c * u_a), eq(f_c, 1))
     assert sp.Eq(f_c, 1) in {hypothesis.relation for hypothesis in special.hypotheses}
+
+
+def test_what_a_definition_supposes_is_proved_at_every_time() -> None:
+    """What wear with a rate tells of G may fail where it has none."""
+    z, G = sp.Symbol("z", positive=True), symbol("G")
+    named = defined(z, G**2, eq(G**2, T**2 * rate("u_c") ** 2 / L**2), ne(rate("u_c"), 0))
+    assert sp.Gt(G**2, 0) in {hypothesis.relation for hypothesis in named.conditions}
 
 
 def test_rates_and_later_times_of_what_always_holds() -> None:
