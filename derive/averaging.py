@@ -54,7 +54,8 @@ def turning(expr: sp.Expr, phase: sp.Expr) -> sp.Expr:
     True
     """
     turns = expr.rewrite((sp.sin, sp.cos), sp.exp).replace(
-        sp.exp, lambda x: z ** sp.cancel(x / (2 * sp.pi * sp.I * phase))
+        lambda part: isinstance(part, sp.exp) and part.has(phase),
+        lambda turn: z ** sp.cancel(turn.exp / (2 * sp.pi * sp.I * phase)),
     )
     return sp.expand(turns)
 

@@ -162,7 +162,8 @@ class Averaging(Rule):
             raise RuleError(f"missing premise: {rest} has the period 1")
         if name == whole:
             slope = turning(sp.diff(value, tau) - rest, tau)
-            right = law.lhs != whole and mean(turning(value, tau)) == 0 == slope
+            no_mean = _periodic(value) and mean(turning(value, tau)) == 0
+            right = law.lhs != whole and no_mean and slope == 0
         else:
             even = not any(sp.diff(rest, wave).has(tau) for wave in waves)
             average = mean(turning(rest.xreplace(waves), tau)) if even else sp.nan

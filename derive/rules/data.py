@@ -23,7 +23,7 @@ from ..symbols import DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import is_contact_law, open_set, require_defined, smooth, undefined
-from .reading import equality, functions
+from .reading import clocks, equality, functions
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
@@ -62,12 +62,14 @@ def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
 
 
 def _is_open(relation: sp.Basic, definitions: Collection[sp.Basic]) -> bool:
-    """Return whether a relation holds on an open set of data, with the names in it written out."""
+    """Return whether a relation that no clock moves holds on an open set of data, with the names in
+    it written out."""
     values = {known.lhs: known.rhs for known in definitions if isinstance(known, sp.Equality)}
     while (told := relation.xreplace(values)) != relation:
         relation = told
     implicit = frozenset[str]().union(*map(defined_by, definitions))
-    return implicit.isdisjoint(name for name, _ in names(relation)) and open_set(relation)
+    told = implicit.isdisjoint(name for name, _ in names(relation)) and not clocks(relation)
+    return told and open_set(relation)
 
 
 def _leaves_data_free(relation: sp.Basic) -> bool:

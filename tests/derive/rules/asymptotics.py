@@ -185,6 +185,9 @@ FAMILIES = (
         "the formula of A, a name for nothing": ("A = ", sp.Eq(A, FIRST_DRIFT)),
         "the formula of c_1, which is called A": ("c_1 = ", sp.Eq(c_1, FIRST_DRIFT), "A"),
         "another drift": ("by the mean", sp.Eq(c_1, 2 * FIRST_DRIFT)),
+        # theta = 0: its mean is U rho
+        "an oscillation beside an exponential": ("by the mean",
+            sp.Eq(w_1, FIRST_WAVE + U * rho * sp.exp(-theta)), "c_1", averaged_as(FIRST_DRIFT)),
         # R L is whatever it is
         "an area that is an oscillation": ("by the mean", sp.Eq(R * L, FIRST_WAVE)),
         "a drift that is 0/0 for f_c = 1": ("f_c - 1",

@@ -68,6 +68,7 @@ LATER = one_period_later(opened())
 SCALED = defined(u_c, sigma_c0 * v)
 IN_H_0 = sp.Derivative(u_cum, h_0, evaluate=False)
 IN_FALLING_ORDER, HIGHER = ge(x_inf, theta), ge(-q, -2 * q, evaluate=False)
+SOON = sp.Symbol("z", positive=True)
 WHOLE = sp.Piecewise((1 / f_c, sp.Ne(f_c, 0)), (0, True))
 
 
@@ -268,6 +269,9 @@ FAMILIES = (
             tied(defined(q, sp.Piecewise((1, sp.Eq(h_0, f_c * L)), (2, True))), lt(q, 2)), h_0),
         "two data tied by a name that may be any": ("may vary", equal(IN_H_0, 0),
             tied(said(equal(theta * (f_c * L - h_0), 0), Kind.DEFINITION), ne(theta, 0)), h_0),
+        # with its negative it says f_c = 0 as time goes on
+        "a condition at every time": ("may vary", equal(SLOPE, h_0),
+            beside(defined(SOON, f_c + T / (t + T)))),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
