@@ -55,6 +55,7 @@ _PARTS = {
 }
 _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
 """Functions that have a value at every real argument."""
+_CYCLE = (symbol("tau"), symbol("rho"))
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
 _DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
@@ -111,8 +112,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
-    if isinstance(node, Term) and _clocks(node.args[-1]):
-        return f"{node} has a pace that varies"
+    if isinstance(node, Term) and (node.args[3:] != _CYCLE or _clocks(node.args[1]) - {"tau"}):
+        return f"{node} is no coefficient at the phase tau and the pace rho"
     if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
         return f"{node} has no two ends"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):

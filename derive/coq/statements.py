@@ -25,6 +25,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..kernel import Judgement
+from ..rules.data import DataDerivative
 from ..symbols import CLOCKS, QUANTITIES, t
 from . import printer
 
@@ -147,15 +148,16 @@ def key(judgement: Judgement) -> str:
 
 @cache
 def claim(judgement: Judgement) -> sp.Basic:
-    """Return the claim in terms of time, in which the derivative of a result is that of its
-    function, by the first premise."""
+    """Return the claim in terms of time; where a rule derives a result, its derivative is that of
+    its function."""
     slopes = [d for d in judgement.relation.atoms(sp.Derivative) if isinstance(d.expr, sp.Symbol)]
     if not slopes:
         return judgement.relation.xreplace(_clocks(judgement))
-    if not judgement.parents:
+    results = judgement.parents[:1] if isinstance(judgement.rule, DataDerivative) else ()
+    known = {result.relation.lhs: result.relation.rhs for result in results}
+    if not all(slope.expr in known for slope in slopes):
         raise printer.UntranslatableError(f"{slopes[0]} of no function that is known")
-    given = judgement.parents[0].relation.rhs
-    functions = {d: sp.Derivative(given, *d.variables, evaluate=False) for d in slopes}
+    functions = {d: sp.Derivative(known[d.expr], *d.variables, evaluate=False) for d in slopes}
     return judgement.claim.map(methodcaller("xreplace", functions)).relation
 
 

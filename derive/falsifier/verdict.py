@@ -97,7 +97,8 @@ def try_on_models(judgement: Judgement) -> TrialResult:
     """Return the result of trying a judgement on models; none is known of an averaged expansion."""
     if any(isinstance(hypothesis.relation, SlowEquation) for hypothesis in judgement.hypotheses):
         return TrialResult(None, models=0, decided=0, doubtful=1)
-    return _tried(_relations(judgement), _decidable(judgement.claim))
+    found = _tried(_relations(judgement), _decidable(judgement.claim))
+    return replace(found, decided=0) if isinstance(judgement.claim, Property) else found
 
 
 @cache

@@ -9,7 +9,8 @@ import sympy as sp
 from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
 from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
-from ..note.model import FIELDS, START, WORDS, law_of
+from ..language import defined_by
+from ..note.model import START, WORDS, law_of
 from ..reals import holds
 from ..symbols import DATA, EXTREMES, symbol, t
 from ..zero import is_zero
@@ -129,16 +130,16 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
 
 
 def _solvable(relation: sp.Equality) -> sp.Expr | None:
-    """Return an equation between new fields that has a solution for all data, else None.
+    """Return an equation of new fields that has a solution for all data and others, else None.
 
-    The unknowns are the fields beyond the model and their rates; each is replaced by a variable.
+    The unknowns are the fields that it defines and their rates; each is replaced by a variable.
     The equation, or the expression whose limit it gives, must be linear in them.  Either zero
     solves it, or it has no limit and no rate, and one unknown, of any sign, has a factor that is
     never zero and occurs in it once.
     """
     tends = isinstance(relation.lhs, sp.Limit)
     whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
-    fields = {f for f in functions(whole) if f.func not in FIELDS}
+    fields = {f for f in functions(whole) if f.func.__name__ in defined_by(relation)}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     parts = (*rates, *fields - {d.expr for d in rates})
     own = {part: sp.Dummy(real=True) for part in parts}

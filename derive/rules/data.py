@@ -2,7 +2,6 @@
 
 Key results
     DataDerivative   the derivative of a result with respect to a parameter
-    OneSign          a derivative that is nowhere negative, or nowhere positive
 """
 
 from __future__ import annotations

@@ -11,9 +11,10 @@ from derive import catalogue
 from derive.coq import export, printer, prove, refutations
 from derive.coq.statements import statement, world
 from derive.coq.steps import proved_by_coq, record
+from derive.rules.inequalities import Arithmetic
 from derive.rules.solutions import ByParts
 from derive.symbols import symbols, t
-from tests.derive.judgements import eq
+from tests.derive.judgements import SLOPE, eq, sloped
 from tests.programs import ended
 
 h, sigma, p, p_max, U_a, f_c, N = symbols("h sigma p p_max U_a f_c N")
@@ -58,6 +59,9 @@ def test_what_the_library_lacks_is_named():
 def test_the_slope_of_a_name_without_a_function_has_no_statement():
     with pytest.raises(printer.UntranslatableError, match="no function"):
         statement(eq(symbols("q")[0], sp.Derivative(p_max, symbols("k")[0])))
+    assert statement(sloped()).conclusion
+    with pytest.raises(printer.UntranslatableError, match="no function"):
+        statement(Arithmetic(sp.Ge(SLOPE + 1, SLOPE, evaluate=False))(sloped()))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,9 @@ import sympy as sp
 
 from derive import catalogue
 from derive.falsifier.verdict import counterexample_without, try_on_models
+from derive.hypotheses import CONTINUOUS
 from derive.reasons import outdated, table
+from derive.rules.assumption import assume
 from derive.rules.drift import LeadingTerm
 from derive.symbols import symbols
 from tests.derive.judgements import eq, gt
@@ -16,6 +18,13 @@ def test_a_relation_towards_an_end_of_a_field_is_tried_where_the_field_tends_to_
     answer = try_on_models(leading(eq(G, q / sigma_c + 1 / q), gt(q, 0, False)))
     assert answer.passed, str(answer)
     assert answer.decided
+
+
+def test_no_model_decides_that_a_field_is_continuous():
+    continuous = assume(CONTINUOUS)
+    answer = try_on_models(continuous)
+    assert not answer.vacuous
+    assert answer.decided == 0
 
 
 def test_a_condition_of_the_threshold_is_needed():

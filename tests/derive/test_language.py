@@ -89,7 +89,9 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (with_a_slope_of_its_own(), "of no kind"),
     (sp.log(h_0 / q, 2, evaluate=False), "no 1 parts"),
     (sp.Pow(sp.E, f_c, evaluate=False), "power of e"),
-    (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "pace that varies"),
+    (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "the pace rho"),
+    (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "the phase tau"),
+    (Drift(sp.S.One, 2 + h_0 / y, y, x, symbol("rho")), "the phase tau"),
     (sp.Limit(WIGGLE, t, 0), "no limit for t"),  # nothing of the end follows
     (sp.Limit(f_c / k, k, sp.oo), "no limit for t"),
     (sp.sign(theta), "of no kind"),
@@ -192,6 +194,8 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, sp.Eq(f_c, 5), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, sp.Eq(f_c * h_0, 3), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(b_0, b_0 + 1), "is a new name"),
+    (Kind.DEFINITION, equal(POSITIVE, WOBBLE), "is a new name"),  # wobble = U_a
+    (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), WOBBLE), "is a new name"),  # wobble = U_a
     (Kind.DEFINITION, equal(STEPPED, f_c), "is a new name"),  # f_c = 1/2
     (Kind.DEFINITION, equal(f_c**2 + b_0**2, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(sp.exp(b_0), f_c), "is a new name"),  # f_c = -1
