@@ -63,6 +63,8 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
             if not smooth_everywhere(phi):
                 raise UsageError(f"phi = {text} has a kink")
+            if faults := contact_law.faults_of_signs(phi):
+                raise UsageError("\n".join(faults))
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))
             row = StableForm(((share, value),), share, slope, value, slope / value)
             law = ContactLaw(NAME, phi, _inflection(phi), f"phi = {text}", form=row)
@@ -165,11 +167,12 @@ def _of_exponentials(expression: sp.Expr) -> tuple[sp.Expr, sp.Symbol, sp.Expr] 
     """Return an expression as a rational function of one decreasing exponential, its symbol and
     exponent; None for other expressions."""
     plain = expression.replace(sp.tanh, lambda x: 1 - 2 / (1 + sp.exp(2 * x)))
-    exponents = sorted((e.args[0] for e in plain.atoms(sp.exp)), key=sp.count_ops)
-    if not exponents or not sp.diff(exponents[0], r).is_number:
+    slopes = {e.args[0]: sp.diff(e.args[0], r) for e in plain.atoms(sp.exp)}
+    if not slopes or not all(slope.is_number for slope in slopes.values()):
         return None
-    unit = exponents[0] if sp.diff(exponents[0], r) < 0 else -exponents[0]
-    powers = {exponent: sp.cancel(exponent / unit) for exponent in exponents}
+    unit = min(slopes, key=lambda exponent: (float(abs(slopes[exponent])), str(exponent)))
+    unit = unit if slopes[unit] < 0 else -unit
+    powers = {exponent: sp.cancel(exponent / unit) for exponent in slopes}
     if not all(power.is_Integer for power in powers.values()):
         return None
     step = sp.Dummy(positive=True)

@@ -107,7 +107,13 @@ def _cache() -> Path:
     """Return the folder of the laws in the user's cache directory, writable by the user alone."""
     home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     folder = Path(home) / "derive-wear" / "contact-laws"
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as fault:
+        remedy = "name a folder of yours by the environment variable XDG_CACHE_HOME"
+        raise UsageError(
+            f"contact law: its code cannot be kept in {folder} ({fault.strerror}): {remedy}"
+        ) from fault
     about = folder.stat()
     if hasattr(os, "getuid") and (about.st_uid != os.getuid() or about.st_mode & 0o022):
         raise UsageError(f"{folder}: others may write there; code is not run from it")

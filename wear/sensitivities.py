@@ -204,10 +204,10 @@ def _grazes(equation: WearEquation, edge: Edge) -> bool:
 class Sensitivities:
     """The sensitivities of the wear of a scene after `cycles` (n,) to its numbers.
 
-    The `wear_mm` (n,) and the `wear_per_cycle_mm` (n,) of the cycle that ends there; the `keys`
-    (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with respect
-    to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite where
-    the wear could not be computed. `notices` list implausible magnitudes, and one-sided
+    The `wear_mm` (n,) and its rate with the number of cycles there, `wear_per_cycle_mm` (n,); the
+    `keys` (k,) of the numbers with their `values` (k,); the `derivative` (k, n) of the wear with
+    respect to them, in mm per unit of the key, and its estimated absolute `error` (k, n), infinite
+    where the wear could not be computed. `notices` list implausible magnitudes, and one-sided
     derivatives.
     """
 

@@ -27,11 +27,7 @@ def faults_of(law: ContactLaw) -> tuple[str, ...]:
     ()
     """
     slope = sp.diff(law.phi, r)
-    faults = [
-        f"{law.name}: {expression} is not proved to be {claim}; if it is, write phi otherwise"
-        for expression, claim, expected in ((law.phi, "positive", 1), (slope, "negative", -1))
-        if sign(expression) != expected
-    ]
+    faults = [f"{law.name}: {fault}" for fault in faults_of_signs(law.phi)]
     everywhere = not law.inflection.is_finite
     place = sp.Integer(0) if everywhere else law.inflection
     convex = [bool(sp.diff(slope, r).subs(r, place + d).evalf(30) > 0) for d in _DISTANCES]
@@ -40,6 +36,17 @@ def faults_of(law: ContactLaw) -> tuple[str, ...]:
     forms = zip(_exact_forms(law), (law.phi, slope), strict=True)
     if not all(is_zero((form - exact).rewrite(sp.exp)) for form, exact in forms):
         faults.append(f"{law.name}: the form to compute with is not phi")
+    return tuple(faults)
+
+
+def faults_of_signs(phi: sp.Expr) -> tuple[str, ...]:
+    """Return what is not proved of the signs of a law and its slope."""
+    slope, hint = sp.diff(phi, r), "if it is, write phi otherwise"
+    faults = []
+    if sign(phi) != 1:
+        faults.append(f"phi must be positive: {phi} is not proved to be positive; {hint}")
+    if sign(slope) != -1:
+        faults.append(f"phi must decrease: its slope {slope} is not proved to be negative; {hint}")
     return tuple(faults)
 
 

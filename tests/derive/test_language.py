@@ -90,7 +90,7 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.log(h_0 / q, 2, evaluate=False), "no 1 parts"),
     (sp.Pow(sp.E, f_c, evaluate=False), "power of e"),
     (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "the pace rho"),
-    (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "the phase tau"),
+    (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "holds N fixed"),
     (Drift(sp.S.One, 2 + h_0 / y, y, x, symbol("rho")), "the phase tau"),
     (sp.Limit(WIGGLE, t, 0), "no limit for t"),  # nothing of the end follows
     (sp.Limit(f_c / k, k, sp.oo), "no limit for t"),

@@ -327,6 +327,16 @@ def test_the_posterior_of_a_determined_parameter_is_that_of_the_fit():
     assert np.std(samples) == pytest.approx(error, rel=0.5)
 
 
+def test_an_interrupted_posterior_says_nothing_of_the_sampler(found, monkeypatch, capsys):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(type(found.model), "cost", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        wear.posterior(found, 10)
+    assert capsys.readouterr() == ("", "")
+
+
 def test_columns_of_a_notebook_are_readings(found, far_off):
     readings = synthetic(1)
     columns = {"cycles": readings.cycles.astype(int), "wear_um": 1e3 * readings.wear_mm}
@@ -345,6 +355,14 @@ def test_readings_and_estimates_that_are_hardly_meant_are_said():
     columns = {"cycles": [1000, 2000], "wear_mm": [0.8, 1.2]}
     found = wear.fit(columns, load_scene("section4").with_({K: 1e-2}), K, intervals=False)
     assert "implausible: the roughness of 0.3" in " ".join(found.as_json()["notices"])
+
+
+def test_wear_that_falls_and_a_forecast_without_a_band_are_told():
+    """Contact will have ended: no further reading narrows what is certain."""
+    columns = {"cycles": [100, 300, 1000], "wear_mm": [0.001, 0.0006, 0.0004]}
+    found = wear.fit(columns, "section4-cutoff", K, intervals=False)
+    assert found.next_reading(1e7).band_of_forecast_times == 1.0
+    assert "wear does not fall" in " ".join(found.as_json()["notices"])
 
 
 # Bad requests and the command

@@ -1,5 +1,6 @@
 """Studies: designs, whole chunks or none, the same bits however they come about."""
 
+import dataclasses
 import json
 import os
 import signal
@@ -89,6 +90,30 @@ def test_what_cannot_vary_is_refused_with_the_remedy(text, word):
 def test_what_cannot_vary_is_refused_without_a_text_too(made, word):
     with pytest.raises(UsageError, match=word):
         made()
+
+
+def test_a_scene_that_no_row_can_solve_is_refused_at_once(tmp_path):
+    sine, place = wear.load_scene("section4"), tmp_path / "none.zarr"
+    load = wear.HistoryLoad((0.0, 0.03, 0.06), (0.0, 5e-4, 0.0), 0.06)
+    with pytest.raises(UsageError, match="does not repeat"):
+        study(dataclasses.replace(sine, load=load), "bearing.hardness_MPa=1,2", 5, place)
+    with pytest.raises(UsageError, match="is zero"):
+        study(sine, "bearing.hardness_MPa=0,-1", 5, place)
+
+
+def test_an_invalid_first_row_is_a_row(tmp_path):
+    made = study("section4", "bearing.hardness_MPa=0,100,-5", 5, tmp_path / "study.zarr")
+    assert made.status.values.tolist() == [1, 0, 1]
+
+
+def test_a_study_that_another_process_has_just_made_is_told(tmp_path, monkeypatch):
+    place = tmp_path / "study.zarr"
+    monkeypatch.setattr(
+        "zarr.consolidate_metadata", lambda _: (place / "other").mkdir(parents=True)
+    )
+    with pytest.raises(UsageError, match="another process has just made it"):
+        study("section4", "bearing.hardness_MPa=100,200", 5, place)
+    assert [path.name for path in tmp_path.iterdir()] == ["study.zarr"]
 
 
 def test_two_thirds_of_a_lognormal_quantity_are_within_its_factor():

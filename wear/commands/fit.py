@@ -8,6 +8,7 @@ examples:
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from pathlib import Path
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 ERRORS = ("relative", "absolute")
 QUANTILES = (0.025, 0.5, 0.975)  # of the posterior
+WORTHWHILE = 0.995  # of the band of a forecast: a reading that narrows it less is not suggested
 
 
 def add_arguments(parser: Parser) -> None:
@@ -126,10 +128,13 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     own = {"law": "this scene"} | {key: document[key] for key in ("rms", "aicc", "forecast_rms")}
     yield terminal.table(
         ["law", "rms", "AICc", "rms of the last reading,\npredicted from the first half"],
-        [[row["law"], f"{row['rms']:.3g}", f"{row['aicc']:.1f}", f"{row['forecast_rms']:.3g}"]
+        [[row["law"], *(format(x, digits) if math.isfinite(x) else "–" for x, digits in
+                        ((row["rms"], ".3g"), (row["aicc"], ".1f"), (row["forecast_rms"], ".3g")))]
          for row in (own, *document["alternatives"])],
     )  # fmt: skip
     after = document["next_reading"]
+    if after["band_of_forecast_times"] > WORTHWHILE:
+        return
     which = f"of specimen {after['specimen']} " * bool(after["specimen"])
     yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows the forecast "
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip

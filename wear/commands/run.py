@@ -116,7 +116,8 @@ def _check_inside(options: Options, faults: Faults) -> None:
     """Add the faults of a request for states inside the cycles."""
     from wear.load.spans import most_cycles
 
-    if options.output is None or options.output.suffix not in _OF_PHASES:
+    misnamed = options.output is not None and options.output.suffix not in _OF_PHASES
+    if misnamed or (options.output is None and not any("--output" in fault for fault in faults)):
         faults.append("--phases: name a .nc or .csv file with --output; there are too many states")
     if options.method != "auto":
         faults.append("--phases: the load decides on the method; drop --method")

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from wear.scene import Scene
 
 CANDIDATES = 25  # numbers of cycles at which a further reading is tried
+FALLEN = 0.5  # of an earlier reading: a last one that is told
 AHEAD = 10.0  # times the cycles of the last reading: the default forecast
 
 
@@ -151,7 +152,8 @@ class Fit(Estimate):
         shared = np.einsum("tp,snp->snt", target, read[:, :-1])
         gain = np.sum(shared**2, axis=-1) / (1.0 + np.sum(read[:, :-1] ** 2, axis=-1))
         which, best = np.unravel_index(np.argmax(gain), gain.shape)
-        left = max(0.0, 1.0 - gain[which, best] / np.sum(target**2))
+        spread = float(np.sum(target**2))  # none where the wear has ended
+        left = max(0.0, 1.0 - gain[which, best] / spread) if spread > 0.0 else 1.0
         return NextReading(specimens[which].name, float(tried[best]), float(np.sqrt(left)))
 
     def alternatives(self) -> list[laws.Alternative]:
@@ -216,6 +218,10 @@ class Fit(Estimate):
                     for law in others if law.forecast_rms < own_forecast]  # fmt: skip
         if self.degrees_of_freedom == 0 and not self.model.residuals.known:
             notices.append("there are as many parameters as readings: the scatter is unknown")
+        notices += [f"{specimen.name or 'readings'}: the last wear is less than half of an earlier "
+                    "one; wear does not fall: see whether columns and cycles are right"
+                    for specimen in self.model.specimens
+                    if specimen.wear_mm[-1] < FALLEN * specimen.wear_mm.max()]  # fmt: skip
         for specimen, scene in zip(self.model.specimens, self.scenes, strict=True):
             notices += notices_of_wear(scene, specimen.cycles.tolist(), specimen.wear_mm)
         return list(dict.fromkeys(notices))

@@ -59,7 +59,9 @@ def _by_key(parameters: Sequence[Parameter], powers: FloatArray) -> dict[str, fl
 
 def _sentence(powers: dict[str, float], error: float) -> str:
     """Return the sentence on a combination that the data leave open."""
-    factor = f"a factor e^{error:.2g}" if error < PARAMETER_RANGE else "beyond all bounds"
+    factor = (
+        f"a factor of {math.exp(error):.2g}" if error < PARAMETER_RANGE else "beyond all bounds"
+    )
     if len(powers) == 1:
         return f"The data do not determine {next(iter(powers))}: its standard error is {factor}."
     *names, last = powers

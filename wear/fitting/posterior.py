@@ -54,7 +54,16 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
         raise UsageError("a posterior needs emcee: pip install 'derive-wear[fit]'")
     import emcee
 
+    interrupts: list[KeyboardInterrupt] = []
+
     def log_density(points: FloatArray) -> FloatArray:
+        try:
+            return log_posterior(points)
+        except KeyboardInterrupt as interrupt:  # of which emcee would print a traceback
+            interrupts.append(interrupt)
+            return np.full(len(points), np.finfo(float).min / 4)  # of which emcee makes differences
+
+    def log_posterior(points: FloatArray) -> FloatArray:
         inside = np.all(np.abs(points - found.theta) < PARAMETER_RANGE * found.scale, axis=1)
         density = np.full(len(points), -np.inf)
         if inside.any():
@@ -70,7 +79,9 @@ def posterior(found: Estimate, steps: int, seed: int = 0) -> FloatArray:
     begin = found.theta + np.minimum(SPREAD * errors, SPREAD) * steps_away @ rows * found.scale
     sampler = emcee.EnsembleSampler(walkers, len(found.theta), log_density, vectorize=True)
     sampler.random_state = np.random.RandomState(seed).get_state()
-    sampler.run_mcmc(begin, steps)
+    for _ in sampler.sample(begin, iterations=steps):
+        if interrupts:
+            raise interrupts[0]
     samples = sampler.get_chain(discard=int(BURN_IN * steps), flat=True)
     columns = zip(found.parameters, samples.T, strict=True)
     return np.column_stack([parameter.value(column) for parameter, column in columns])

@@ -167,6 +167,8 @@ def _read_override(option: str) -> tuple[tuple[str, ...], object]:
     """
     dotted, equals, raw = option.partition("=")
     path = tuple(part.strip() for part in dotted.split("."))
+    if "[" in dotted:
+        raise wrong("is an entry of a list", "write it in the scene file")
     if not equals or not all(path) or not 1 <= len(path) <= 2:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
         raise wrong("is not TABLE.KEY=VALUE", remedy)

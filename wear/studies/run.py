@@ -142,9 +142,13 @@ def prepare(
             parsed.append(entry if isinstance(entry, Levels | Distribution) else parse(entry))
             if "." not in str(parsed[-1].key):
                 raise UsageError(no_such_number(parsed[-1].key, parameters_of(base)))
-            base.with_({parsed[-1].key: parsed[-1].example})
+            _require_entry(base, parsed[-1])
         except ValueError as fault:
             faults.append(str(fault))
+    try:
+        _ = base.periodic_load
+    except UsageError as fault:
+        faults.append(str(fault))
     plan = None
     try:
         plan = Design(design, tuple(parsed), samples, seed)
@@ -159,6 +163,19 @@ def prepare(
     faults.stop_if_any()
     assert plan is not None
     return Study(base, plan, wanted, until_wear, rtol)
+
+
+def _require_entry(base: Scene, vary: Vary) -> None:
+    """Raise the first fault if the scene can take none of the values; else rows are invalid."""
+    faults: list[ValueError] = []
+    for value in vary.examples:
+        try:
+            base.with_({vary.key: value})
+        except ValueError as fault:
+            faults.append(fault)
+        else:
+            return
+    raise faults[0]
 
 
 def check_executor(executor: object) -> None:

@@ -172,7 +172,15 @@ class Store:
                 warnings.simplefilter("ignore")
                 zarr.consolidate_metadata(folder)
             folder.chmod(0o755)
-            folder.rename(self.path)
+            try:
+                folder.rename(self.path)
+            except OSError as taken:
+                if not self.path.exists():
+                    raise
+                remedy = "to go on with it, give the same command again once the other has ended"
+                raise UsageError(
+                    f"{self.path}: another process has just made it; {remedy}"
+                ) from taken
         except BaseException:
             shutil.rmtree(folder, ignore_errors=True)
             raise

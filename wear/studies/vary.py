@@ -21,6 +21,7 @@ from wear.numerics.gauss import FloatArray
 from wear.request import is_number
 
 MOST_LEVELS = 10**7  # of one key
+EXAMPLES = 20  # levels of which one must be possible
 _CALL = re.compile(r"(\w+)\(([^()]*)\)")
 
 
@@ -38,9 +39,9 @@ class Levels:
             raise UsageError(f"{self.key}: a value is given twice")
 
     @property
-    def example(self) -> float:
-        """Return a value that the key takes."""
-        return self.values[0]
+    def examples(self) -> tuple[float, ...]:
+        """Return values that the key takes."""
+        return self.values[:EXAMPLES]
 
     def quantile(self, probability: FloatArray) -> FloatArray:
         """Return the values that the key does not exceed with these probabilities (< 1), if its
@@ -74,9 +75,9 @@ class Distribution:
             raise UsageError(f"{self.key}: {law.rule}")
 
     @property
-    def example(self) -> float:
+    def examples(self) -> tuple[float, ...]:
         """Return the median."""
-        return float(self.quantile(np.array(0.5)))
+        return (float(self.quantile(np.array(0.5))),)
 
     @property
     def frozen(self) -> Any:

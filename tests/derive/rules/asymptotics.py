@@ -223,7 +223,7 @@ FAMILIES = (
         "a second order of any law": ("of order 2",
             lambda: defined(c_1, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),
         # it is 0/0 for b_0 = 0
-        "a drift at any pace": ("the period 1",
+        "a drift at any pace": ("the pace rho",
             lambda: defined(c_1, Drift(sp.S.One, SWAYING, *PACE[:2], b_0), ROUGHENS)),
         "no term of the expansion": ("is of an oscillation",
             lambda: Averaging(sp.Eq(c_1, 0))(RATE)),
