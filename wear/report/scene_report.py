@@ -208,7 +208,7 @@ def _readings(scene: Scene, specimens: Sequence[Specimen]) -> tuple[dict[str, An
         rows += [(each.name, *numbers) for numbers in pairs]
         lines.append(Line(as_typed(name), curve.cycles.astype(float), curve.u_c, place))
     ratios = np.array([wear / mean for _, _, wear, mean in rows if wear > 0.0] or [1.0])
-    ratio, scatter = np.exp(np.mean(np.log(ratios))), np.std(np.log(ratios))
+    ratio, scatter = np.exp([np.mean(np.log(ratios)), np.std(np.log(ratios))])
     read = np.concatenate([each.cycles for each in specimens])
     logarithmic = bool(read.max() > 100.0 * read.min())
     panel = Panel(WEAR, tuple(lines), points_of(specimens, runs, Abscissa.CYCLES))
