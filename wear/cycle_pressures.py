@@ -61,7 +61,7 @@ def cycle_pressures(scene: Scene, cycles: FloatArray, rtol: float) -> CyclePress
         phases = np.concatenate([on.edges, on.phases.ravel()])
         for part in fields_of_stage(model, stage, starts, phases, rtol):
             rows, per_pressure = np.searchsorted(starts, part.cycles), rate * stage.load.period
-            per_cycle[:, rows] = _pressures(part, on, per_pressure, scene.given_load)
+            per_cycle[:, rows] = _pressures(part, on, per_pressure, scene)
     pressures[:, cycles > 0] = per_cycle[:, np.searchsorted(starts, cycles[cycles > 0] - 1.0)]
     return CyclePressures(*pressures)
 
@@ -100,16 +100,17 @@ def _sampled(values: FloatArray, over: Mesh) -> _OnMesh:
     return _OnMesh(values[:, :edges], values[:, edges:].reshape(len(values), *over.phases.shape))
 
 
-def _pressures(
-    part: Chunk, over: Mesh, wear_per_pressure: float, given_load: bool
-) -> CyclePressures:
+def _pressures(part: Chunk, over: Mesh, wear_per_pressure: float, scene: Scene) -> CyclePressures:
     """Return peak, mean and contact fraction of cycles sampled at the edges and nodes;
     `wear_per_pressure` is the wear of a cycle over its mean pressure, mm/MPa. A given pressure is
-    smooth between the edges even where it vanishes."""
-    fields, p = part.fields, _sampled(part.fields.p, over)
+    smooth between the edges even where it vanishes; without loss of contact pressure is never zero,
+    even where it is too small for a number."""
+    given_load, fields = scene.given_load, part.fields
+    p = _sampled(fields.p, over)
     touching = _sampled(np.where(part.fields.p > 0.0, 1.0, -1.0), over)
     whole = np.min(touching.nodes, axis=-1) > 0.0
     whole &= (touching.edges[:, :-1] > 0.0) & (touching.edges[:, 1:] > 0.0)
+    whole |= not (given_load or scene.contact.ends_at_3_sigma)
     fraction = np.ones(len(part.cycles))
     if not whole.all():
         margin = fields.p

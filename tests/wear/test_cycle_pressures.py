@@ -95,6 +95,13 @@ def test_contact_gets_shorter_and_is_lost() -> None:
     assert [row[2] for row in found] == [0.0, 0.0, 0.0]
 
 
+def test_contact_that_does_not_end_lasts_where_the_pressure_is_too_small_for_a_number() -> None:
+    scene = load_scene("section4").with_({"load.amplitude_mm": 0.1})
+    found = cycle_pressures(scene, np.array([1.0]), 1e-10)
+    assert found.contact_fraction[0] == 1.0
+    assert found.peak[0] == pytest.approx(scene.contact.max_pressure_MPa, rel=1e-9)
+
+
 def test_each_block_has_its_own_cycles() -> None:
     parts = (Block(Sine(2e-4, 0.06), 3), Block(Sine(5e-4, 0.03), 5))
     scene = replace(SCENES["section4"], load=Blocks(parts))

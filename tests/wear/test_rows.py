@@ -221,3 +221,10 @@ def test_the_seam_and_the_drift_of_a_record_are_told(tmp_path):
     assert "61 rows" in told
     assert "mean" in told
     assert "there U_a changes by" in told
+    assert "ends where it began" not in told
+
+
+def test_a_record_that_is_whole_without_its_seam_is_told(tmp_path):
+    (tmp_path / "a.csv").write_text("t_s,U_a_mm\n0,0\n0.03,1e-4\n0.06,0\n")
+    told = " ".join(scene(tmp_path, file="a.csv", repeat=True).notices)
+    assert "ends where it began" in told

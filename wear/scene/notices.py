@@ -117,10 +117,12 @@ def _load_notices(scene: Scene) -> Iterator[str]:
     if isinstance(load, Table | ForceTable) and load.source is not None and load.source.repeat:
         name, unit = ("R_a", "N") if scene.given_load else ("U_a", "mm")
         seam, length = load.rows[-1] - load.rows[-2], load.times_s[-1] - load.times_s[-2]
+        closed = "; the record ends where it began: without repeat = true it is one whole period"
         yield (
             f"one period of {load.period:.6g} s out of {load.source.file}: {len(load.times_s)} "
             f"rows with the seam, mean {load.mean:.6g} {unit}; there {name} changes by "
             f"{seam:.4g} {unit} in {length:.4g} s (mean and drift are not removed)"
+            f"{closed if seam == 0.0 else ''}"
         )
     if not isinstance(scene.load, Blocks):
         return
