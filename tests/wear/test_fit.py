@@ -365,6 +365,13 @@ def test_wear_that_falls_and_a_forecast_without_a_band_are_told():
     assert "wear does not fall" in " ".join(found.as_json()["notices"])
 
 
+def test_readings_after_the_end_of_wear_bound_nothing():
+    columns = {"cycles": [1000, 2000], "wear_mm": [0.002, 0.001]}
+    found = wear.fit(columns, "section4-cutoff", K)
+    assert [profile.interval for profile in found.profiles] == [(-np.inf, np.inf)]
+    assert found.as_json([1e6])["next_reading"]["band_of_forecast_times"] == 1.0
+
+
 # Bad requests and the command
 
 

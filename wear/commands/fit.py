@@ -99,8 +99,8 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     """Yield the lines of the fit report."""
     yield document["scene"]
     yield (f"{document['observations']} readings of "
-           f"{terminal.count(document['specimens'], 'specimen')}, rms {document['rms']:.3g}, "
-           f"AICc {document['aicc']:.1f}")  # fmt: skip
+           f"{terminal.count(document['specimens'], 'specimen')}, rms {document['rms']:.3g}"
+           + f", AICc {document['aicc']:.1f}" * math.isfinite(document["aicc"]))  # fmt: skip
     yield ""
     sampled = "posterior_95" in document["parameters"][0]
     yield terminal.table(

@@ -18,6 +18,7 @@ from wear.numerics.gauss import FloatArray
 CONFIDENCE = 0.95
 PARAMETER_RANGE = 7.0  # on each side: e-folds (a factor of a thousand), or sizes
 RANK_TOLERANCE = 1e-7  # of the largest singular value: smaller ones are errors of the derivatives
+LEAST_SLOPE = 1e-90  # of residuals: without any, the standard error is as good as infinite
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,7 @@ class Estimate:
     def _modes(self) -> tuple[FloatArray, FloatArray]:
         """Return the `directions` for residuals with a scatter of 1."""
         _, values, rows = np.linalg.svd(self.best.slope[0] * self.scale)
-        return 1.0 / np.maximum(values, RANK_TOLERANCE * values[0]), rows
+        return 1.0 / np.maximum(values, RANK_TOLERANCE * values[0] + LEAST_SLOPE), rows
 
     @property
     def directions(self) -> tuple[FloatArray, FloatArray]:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wear.fitting.estimate import PARAMETER_RANGE, RANK_TOLERANCE, Estimate
+from wear.fitting.estimate import LEAST_SLOPE, PARAMETER_RANGE, RANK_TOLERANCE, Estimate
 from wear.fitting.least_squares import descend
 from wear.fitting.model import Linearised
 from wear.numerics.floating_point import TINY
@@ -173,7 +173,8 @@ class LinearModel(NamedTuple):
         """Return the linear model of residuals (k, n) with this `slope` (k, n, p), the parameters
         of these numbers (k,) being moved."""
         _, values, rows = np.linalg.svd(slope, full_matrices=False)
-        part = np.swapaxes(rows, 1, 2) / np.maximum(values, RANK_TOLERANCE * values[:, :1])[:, None]
+        told = np.maximum(values, RANK_TOLERANCE * values[:, :1] + LEAST_SLOPE)
+        part = np.swapaxes(rows, 1, 2) / told[:, None]
         covariance = part @ np.swapaxes(part, 1, 2)
         gradient = np.einsum("knp,kn->kp", slope, residuals)
         down = -np.einsum("kpq,kq->kp", covariance, gradient)
