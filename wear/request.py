@@ -127,7 +127,8 @@ def checked_request(
         faults.append("method: collocation is for a measured history; take auto")
     if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
         faults.append(f"time_limit: {time_limit!r} is not a positive number of seconds")
-    if max(wanted, default=0) > most_cycles(scene.load):
-        faults.append(f"cycles: the last whole cycle of the load is {most_cycles(scene.load)}")
+    last = most_cycles(scene.load)
+    if max(wanted, default=0) > last:
+        faults.append(f"cycles: the last whole cycle of the load is {last}; name cycles up to that")
     faults.stop_if_any()
     return wanted
