@@ -82,7 +82,7 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
     if implicit is None:
         _require_name(name, value, premises)
-    whole = value if implicit is None else implicit
+    whole = implicit or sp.Tuple(value, *(side.xreplace({name: value}) for side in relation.args))
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)
@@ -129,8 +129,9 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
     return (name, -whole.subs(name, 0) / slope) if linear else None
 
 
-def _solvable(relation: sp.Equality) -> sp.Expr | None:
-    """Return an equation of new fields that has a solution for all data and others, else None.
+def _solvable(relation: sp.Equality) -> sp.Tuple | None:
+    """Return the sides of an equation of new fields that has a solution for all data and others,
+    else None.
 
     The unknowns are the fields that it defines and their rates; each is replaced by a variable.
     The equation, or the expression whose limit it gives, must be linear in them.  Either zero
@@ -138,7 +139,8 @@ def _solvable(relation: sp.Equality) -> sp.Expr | None:
     never zero and occurs in it once.
     """
     tends = isinstance(relation.lhs, sp.Limit)
-    whole = relation.lhs.args[0] - relation.rhs if tends else relation.lhs - relation.rhs
+    sides = sp.Tuple(relation.lhs.args[0] if tends else relation.lhs, relation.rhs)
+    whole = sides[0] - sides[1]
     fields = {f for f in functions(whole) if f.func.__name__ in defined_by(relation)}
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     parts = (*rates, *fields - {d.expr for d in rates})
@@ -146,11 +148,11 @@ def _solvable(relation: sp.Equality) -> sp.Expr | None:
     flat = whole.xreplace(own)
     slopes = {part: sp.diff(flat, name) for part, name in own.items()}
     bent = any(slope.has(*own.values()) for slope in slopes.values())
-    if bent or not smooth(flat, *own.values()):
+    if not own or bent or not smooth(flat, *own.values()):
         return None
     rests = not any(part.is_positive for part in own)
     if rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0:
-        return flat
+        return sides.xreplace(own)
     heads = [part.func for part in own]
     solved = any(
         slope.is_nonzero
@@ -159,7 +161,7 @@ def _solvable(relation: sp.Equality) -> sp.Expr | None:
         and part.args in _AT_EVERY_TIME
         for part, slope in slopes.items()
     )
-    return flat if solved and not tends and not rates else None
+    return sides.xreplace(own) if solved and not tends and not rates else None
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

@@ -197,6 +197,8 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(POSITIVE, WOBBLE), "is a new name"),  # wobble = U_a
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), WOBBLE), "is a new name"),  # wobble = U_a
     (Kind.DEFINITION, equal(STEPPED, f_c), "is a new name"),  # f_c = 1/2
+    (Kind.DEFINITION, equal(sp.log(f_c), sp.log(f_c)), "is a new name"),  # f_c = -1
+    (Kind.DEFINITION, equal(rate("U_a"), rate("U_a")), "is a new name"),  # U_a jumps
     (Kind.DEFINITION, equal(f_c**2 + b_0**2, 0), "is a new name"),  # f_c = 1
     (Kind.DEFINITION, equal(sp.exp(b_0), f_c), "is a new name"),  # f_c = -1
     (Kind.DEFINITION, equal(WIGGLE**2, -f_c), "is a new name"),  # f_c = 1
@@ -263,6 +265,8 @@ def test_a_hypothesis_is_of_the_kind_that_it_is_called(
     ("relation", "condition"),
     [
         (equal(f_c * b_0, 3), sp.Ne(f_c, 0)),
+        (equal(b_0 + sp.log(f_c), sp.log(f_c) + h_0), sp.Gt(f_c, 0)),
+        (equal(WIGGLE + sp.log(f_c), sp.log(f_c)), sp.Gt(f_c, 0)),
         (equal(2 * C, f_c * h_0), sp.Gt(f_c * h_0 / 2, 0, evaluate=False)),
         (equal(q - symbol("U_max") / p_max, 0), sp.Gt(symbol("U_max") / p_max, 0, evaluate=False)),
     ],

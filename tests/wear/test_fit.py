@@ -2,6 +2,7 @@
 
 import copy
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -163,6 +164,16 @@ def test_readings_under_blocks_are_fitted():
     wear_mm = wear.solve(truth, cycles.astype(int), rtol=1e-8).u_c
     found = wear.fit([Specimen("", cycles, wear_mm, None, {})], scene, [K], intervals=False)
     assert found.estimates == pytest.approx([2e-6], rel=1e-3)
+
+
+def test_a_forecast_ends_with_the_load():
+    blocks = wear.Blocks(tuple(wear.Block(wear.Sine(swing, 0.06), 30) for swing in (2e-4, 5e-4)))
+    scene = replace(load_scene("section4"), load=blocks)
+    found = wear.fit({"cycles": [20, 60], "wear_mm": [2e-5, 2e-4]}, scene, K, intervals=False)
+    assert found.next_reading().cycles <= 60
+    assert np.isfinite(found.life(1e-4)[0].interval_95).all()
+    with pytest.raises(wear.UsageError, match="ends after cycle 60"):
+        found.forecast(61)
 
 
 def test_the_jacobian_is_that_of_differences(found):

@@ -95,10 +95,17 @@ def test_what_cannot_vary_is_refused_without_a_text_too(made, word):
 def test_a_scene_that_no_row_can_solve_is_refused_at_once(tmp_path):
     sine, place = wear.load_scene("section4"), tmp_path / "none.zarr"
     load = wear.HistoryLoad((0.0, 0.03, 0.06), (0.0, 5e-4, 0.0), 0.06)
-    with pytest.raises(UsageError, match="does not repeat"):
+    with pytest.raises(UsageError, match="no load of kind history"):
         study(dataclasses.replace(sine, load=load), "bearing.hardness_MPa=1,2", 5, place)
     with pytest.raises(UsageError, match="is zero"):
         study(sine, "bearing.hardness_MPa=0,-1", 5, place)
+
+
+def test_blocks_are_studied_as_they_are_run(tmp_path):
+    blocks = wear.Blocks(tuple(wear.Block(wear.Sine(swing, 0.06), 3) for swing in (2e-4, 5e-4)))
+    scene = dataclasses.replace(wear.load_scene("section4"), load=blocks)
+    made = study(scene, "bearing.hardness_MPa=100,200", 5, tmp_path / "blocks.zarr")
+    assert made.bearing_wear_mm.values[1, 0] == pytest.approx(wear.solve(scene, [5]).u_c[0], 1e-7)
 
 
 def test_an_invalid_first_row_is_a_row(tmp_path):

@@ -25,6 +25,7 @@ from wear.fitting.least_squares import descend, estimate
 from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
+from wear.load.spans import most_cycles
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
 from wear.request import is_number, whole_cycles
@@ -100,6 +101,8 @@ class Fit(Estimate):
         """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
         faults, specimens = Faults(), self.model.specimens
         wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
+        if wanted.max(initial=0.0) > self._last_cycle:
+            faults.append(f"cycles: the load ends after cycle {self._last_cycle}")
         faults.stop_if_any()
         level, slope = self.model.log_wear(self.theta[None], [wanted] * len(specimens))
         width = self.quantile * self.spread(slope[0])
@@ -109,6 +112,11 @@ class Fit(Estimate):
             for each in specimens
             for number, (wear, half) in zip(wanted.tolist(), rows, strict=False)
         ]
+
+    @property
+    def _last_cycle(self) -> int:
+        """Return the last cycle of the load of every specimen."""
+        return min(MOST_CYCLES, *(most_cycles(scene.load) for scene in self.scenes))
 
     def life(self, wear_mm: float) -> list[Forecast]:
         """Return the number of cycles to a wear depth of every specimen, with its 95 % band;
@@ -122,7 +130,8 @@ class Fit(Estimate):
             raise UsageError(f"wear: {wear_mm!r} is not one depth in mm")
         specimens = self.model.specimens
         numbers = cycles_to_depth(self.scenes, wear_mm).cycles[:, 0]
-        near = np.clip(np.where(np.isfinite(numbers), numbers, 1.0), 1.0, 0.98 * MOST_CYCLES)
+        most = min(0.98 * self._last_cycle, self._last_cycle - 1.0)
+        near = np.clip(np.where(np.isfinite(numbers), numbers, 1.0), 1.0, max(1.0, most))
         around = np.stack([near, near + np.maximum(1.0, np.rint(near / 50.0))], axis=1)
         level, slope = self.model.log_wear(self.theta[None], [*around])
         rise = np.diff(level.reshape(around.shape)) / np.diff(np.log(around))
@@ -138,7 +147,7 @@ class Fit(Estimate):
         were read)."""
         specimens, faults = self.model.specimens, Faults()
         last = max(float(specimen.cycles[-1]) for specimen in specimens)
-        farthest = min(AHEAD * last, MOST_CYCLES) if cycles is None else cycles
+        farthest = min(AHEAD * last, self._last_cycle) if cycles is None else cycles
         ahead = whole_cycles(farthest, faults, least=1)
         faults.stop_if_any()
         tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
@@ -218,10 +227,10 @@ class Fit(Estimate):
                     for law in others if law.forecast_rms < own_forecast]  # fmt: skip
         if self.degrees_of_freedom == 0 and not self.model.residuals.known:
             notices.append("there are as many parameters as readings: the scatter is unknown")
-        notices += [f"{specimen.name or 'readings'}: the last wear is less than half of an earlier "
-                    "one; wear does not fall: see whether columns and cycles are right"
+        notices += [f"{specimen.name or 'readings'}: the last wear is half of an earlier one or "
+                    "less; wear does not fall: see whether columns and cycles are right"
                     for specimen in self.model.specimens
-                    if specimen.wear_mm[-1] < FALLEN * specimen.wear_mm.max()]  # fmt: skip
+                    if specimen.wear_mm[-1] <= FALLEN * specimen.wear_mm.max()]  # fmt: skip
         for specimen, scene in zip(self.model.specimens, self.scenes, strict=True):
             notices += notices_of_wear(scene, specimen.cycles.tolist(), specimen.wear_mm)
         return list(dict.fromkeys(notices))

@@ -130,8 +130,9 @@ def prepare(
     rtol: float,
 ) -> Study:
     """Return the checked request, or raise a `UsageError` with all its faults."""
+    from wear.load import HistoryLoad
     from wear.parameters import no_such_number, parameters_of
-    from wear.request import check_rtol, is_number, whole_cycles
+    from wear.request import ONE_PERIOD, check_rtol, is_number, whole_cycles
     from wear.scene import as_scene
 
     base = as_scene(scene)
@@ -145,10 +146,8 @@ def prepare(
             _require_entry(base, parsed[-1])
         except ValueError as fault:
             faults.append(str(fault))
-    try:
-        _ = base.periodic_load
-    except UsageError as fault:
-        faults.append(str(fault))
+    if isinstance(base.load, HistoryLoad):
+        faults.append(f"{base.name}: a study takes no load of kind history: {ONE_PERIOD}")
     plan = None
     try:
         plan = Design(design, tuple(parsed), samples, seed)
