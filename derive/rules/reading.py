@@ -14,7 +14,7 @@ from typing import TypeVar
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Claim, Conjunction, Drift, Equality, Inequality, Limit
+from ..claims import Claim, Conjunction, Drift, Equality, FirstZero, Inequality, Limit, Term
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, RuleError
 from ..language import bound
@@ -139,11 +139,11 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
 
     RuleError if the part is in the scope of a bound variable that occurs in one of them, or inside
     a derivative with respect to a datum, for which the equality need not hold; or, unless it always
-    holds, inside a rate.
+    holds, inside a rate or a first zero.
     """
     binders = [node for node in sp.preorder_traversal(expr) if bound(node) and node != old]
     touched = [node for node in binders if node.has(old) or node.subs(old, new) != node]
-    if not always and any(isinstance(node, sp.Derivative) for node in touched):
+    if not always and any(isinstance(node, (sp.Derivative, FirstZero, Term)) for node in touched):
         raise RuleError(f"missing premise: {old} = {new} at every time")
     taken = {v for node in touched for v in bound(node)}
     if not (clocks(old) | clocks(new)) - {t}:

@@ -114,6 +114,9 @@ FAMILIES = (
         # G = 0, but for G(0) = h_0
         "what is so wherever wear has a rate under a rate": ("at every time",
             eq(rate("G"), C), ALMOST),
+        # G = h_0 at an earlier time alone
+        "what is so wherever wear has a rate before a time": ("at every time",
+            eq(L, FirstZero(G - h_0, t)), ALMOST),
         "what is so wherever wear has a rate as continuous": ("at every time",
             given(Continuous(G)), ALMOST),
         "another clock under the mean": ("for every", MEAN_LOAD, eq(U_a, h_0 * v)),
