@@ -82,7 +82,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
     if implicit is None:
         _require_name(name, value, premises)
-    whole = implicit or sp.Tuple(value, *(side.xreplace({name: value}) for side in relation.args))
+    new = {name: sp.Dummy(**name.assumptions0)}
+    whole = implicit or sp.Tuple(value, *(side.xreplace(new) for side in relation.args))
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)

@@ -137,6 +137,8 @@ def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
     if constant(expr) or expr in (*symbols("t tau N"), *WEARING, *fields):
         return True
     composed = bool(expr.args) and isinstance(expr, _CONTINUOUS)
+    if isinstance(expr, sp.Pow) and not constant(expr.exp):
+        composed &= bool(expr.base.is_positive)  # 0^0
     return composed and all(_unbroken(part, fields) for part in expr.args)
 
 

@@ -266,6 +266,7 @@ def test_a_hypothesis_is_of_the_kind_that_it_is_called(
     [
         (equal(f_c * b_0, 3), sp.Ne(f_c, 0)),
         (equal(b_0 + sp.log(f_c), sp.log(f_c) + h_0), sp.Gt(f_c, 0)),
+        (equal(b_0 * sp.log(f_c), 0), sp.Gt(f_c, 0)),
         (equal(WIGGLE + sp.log(f_c), sp.log(f_c)), sp.Gt(f_c, 0)),
         (equal(2 * C, f_c * h_0), sp.Gt(f_c * h_0 / 2, 0, evaluate=False)),
         (equal(q - symbol("U_max") / p_max, 0), sp.Gt(symbol("U_max") / p_max, 0, evaluate=False)),

@@ -147,6 +147,8 @@ FAMILIES = (
         "the only root where G has a rate": ("the only root",
             eq(p, p - G * (p - p_max)), SQUARE, Arithmetic(sp.Gt(G, 0))(
                 differentiate(SQUARE), SQUARE, TURNS)),
+        # 0^0 at the start of u_c = exp(-1/t), u_a = t
+        "a power of what may be zero": ("is continuous", eq(p, q * G), eq(G, u_c**u_a)),
         "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
