@@ -174,6 +174,8 @@ def test_a_forecast_ends_with_the_load():
     assert np.isfinite(found.life(1e-4)[0].interval_95).all()
     with pytest.raises(wear.UsageError, match="ends after cycle 60"):
         found.forecast(61)
+    with pytest.raises(wear.UsageError, match="ends after cycle 60"):
+        found.next_reading(61)
 
 
 def test_the_jacobian_is_that_of_differences(found):

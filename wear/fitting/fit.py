@@ -26,6 +26,7 @@ from wear.fitting.model import FitModel
 from wear.fitting.profiles import Profile, profiles
 from wear.fitting.readings import Specimen
 from wear.load.spans import most_cycles
+from wear.numerics.gauss import FloatArray
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
 from wear.request import is_number, whole_cycles
@@ -99,11 +100,7 @@ class Fit(Estimate):
 
     def forecast(self, cycles: float | Iterable[float]) -> list[Forecast]:
         """Return the wear of every specimen after numbers of cycles, with its 95 % band."""
-        faults, specimens = Faults(), self.model.specimens
-        wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
-        if wanted.max(initial=0.0) > self._last_cycle:
-            faults.append(f"cycles: the load ends after cycle {self._last_cycle}")
-        faults.stop_if_any()
+        specimens, wanted = self.model.specimens, self._ahead(cycles)
         level, slope = self.model.log_wear(self.theta[None], [wanted] * len(specimens))
         width = self.quantile * self.spread(slope[0])
         rows = zip(level[0].tolist(), width.tolist(), strict=True)
@@ -117,6 +114,15 @@ class Fit(Estimate):
     def _last_cycle(self) -> int:
         """Return the last cycle of the load of every specimen."""
         return min(MOST_CYCLES, *(most_cycles(scene.load) for scene in self.scenes))
+
+    def _ahead(self, cycles: float | Iterable[float]) -> FloatArray:
+        """Return numbers of cycles within the loads as an array, or raise a `UsageError`."""
+        faults = Faults()
+        wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
+        if wanted.max(initial=0.0) > self._last_cycle:
+            faults.append(f"cycles: the load ends after cycle {self._last_cycle}")
+        faults.stop_if_any()
+        return wanted
 
     def life(self, wear_mm: float) -> list[Forecast]:
         """Return the number of cycles to a wear depth of every specimen, with its 95 % band;
@@ -145,13 +151,11 @@ class Fit(Estimate):
         """Return the one further reading, of any specimen within the cycles read so far, that
         narrows the forecast of all specimens after `cycles` most (default: ten times as many as
         were read)."""
-        specimens, faults = self.model.specimens, Faults()
+        specimens = self.model.specimens
         last = max(float(specimen.cycles[-1]) for specimen in specimens)
         farthest = min(AHEAD * last, self._last_cycle) if cycles is None else cycles
-        ahead = whole_cycles(farthest, faults, least=1)
-        faults.stop_if_any()
         tried = np.unique(np.rint(np.geomspace(1.0, last, CANDIDATES)))
-        slots = [np.append(tried, max(ahead))] * len(specimens)
+        slots = [np.append(tried, self._ahead(farthest).max())] * len(specimens)
         level, slope = self.model.log_wear(self.theta[None], slots)
         residuals = self.model.residuals
         weight = replace(residuals, weight=np.median(residuals.weight, keepdims=True)).slope(level)
