@@ -7,6 +7,7 @@ Overview
 Key results
     claim_of(relation)                  the typed claim of a SymPy relation
     part of a claim by its name         ``lhs``, ``lesser``, ``value``; a claim has no others
+    mapped(relation, change)            a relation with its sides changed
 """
 
 from __future__ import annotations
@@ -135,15 +136,21 @@ class Claim(ABC):
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
         """Return the claim with ``change`` applied to its expressions."""
-        return claim_of(_mapped(self.relation, change))
+        return claim_of(mapped(self.relation, change))
 
 
-def _mapped(relation: sp.Basic, change: Callable[[sp.Expr], sp.Expr]) -> sp.Basic:
-    if isinstance(relation, Predicate):
+def mapped(relation: sp.Basic, change: Callable[[sp.Expr], sp.Expr]) -> sp.Basic:
+    """Return a relation with ``change`` applied to its sides, and without an attempt to decide it.
+
+    >>> x = sp.Symbol("x")
+    >>> mapped(sp.Eq(x, 1), lambda side: side.subs(x, 1))
+    Eq(1, 1)
+    """
+    if isinstance(relation, Predicate) or not relation.args:
         return relation.func(*map(change, relation.args))
     if isinstance(relation, Relational):
         return relation.func(*map(change, relation.args), evaluate=False)
-    return relation.func(*(_mapped(part, change) for part in relation.args), evaluate=False)
+    return relation.func(*(mapped(part, change) for part in relation.args), evaluate=False)
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from .symbols import QUANTITIES
 from .written import evaluated, read
 
 BASE = mm, s, MPa = sp.symbols("mm s MPa", positive=True)
+_ANY = (sp.S.Zero, sp.oo, -sp.oo)
 _UNITS = {"mm": mm, "s": s, "MPa": MPa, "rpm": 1 / s}  # a count of turns has no dimension
 
 
@@ -40,7 +41,7 @@ def dimension(expr: sp.Expr) -> sp.Expr | None:
 
     Raises DimensionError where terms do not fit.
     """
-    if expr == 0 or expr.is_infinite or isinstance(expr, (FirstZero, landau_o)):
+    if expr in _ANY or isinstance(expr, (FirstZero, landau_o)):
         return None
     if isinstance(expr, sp.Symbol):
         return parse_unit(QUANTITIES[expr.name].unit) if expr.name in QUANTITIES else sp.S.One

@@ -17,17 +17,18 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .claims import Term, claim_of
+from .claims import Term, claim_of, mapped
 from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, domain, step_key
 from .language import defined_by, names
+from .laws import written_out
 from .rules.assumption import Assume
 from .symbols import DATA, QUANTITIES
 from .typeset.display import latex
@@ -272,17 +273,16 @@ def _in_full(relation: sp.Basic, where: tuple[sp.Basic, ...]) -> sp.Basic:
     """Return a relation with abbreviations written out."""
     relation = evaluated(relation) if where else relation
     for short in reversed(where):
-        relation = _replaced(relation, evaluated(short))
+        relation = mapped(relation, partial(_replaced, short=evaluated(short)))
     return relation
 
 
-def _replaced(expr: sp.Basic, short: sp.Eq) -> sp.Basic:
+def _replaced(expr: sp.Expr, short: sp.Eq) -> sp.Expr:
     """Return an expression with one abbreviation written out, a function at its arguments too."""
     name = short.lhs
     if not isinstance(name, AppliedUndef):
         return expr.subs(name, short.rhs)
-    written = expr.replace(name.func, sp.Lambda(name.args, short.rhs))
-    return written.replace(sp.Subs, lambda *args: sp.Subs(*args).doit())  # slopes of the function
+    return written_out(expr, sp.Lambda(name.args, short.rhs), name.func)
 
 
 def abbreviated(relation: sp.Basic, names: Iterable[sp.Equality]) -> sp.Basic:

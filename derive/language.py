@@ -247,42 +247,43 @@ def certain(expr: sp.Basic) -> Iterator[sp.Basic]:
             yield from certain(part)
 
 
-def needs(expr: sp.Basic) -> list[sp.Basic]:
+@cache
+def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the condition for an expression to be defined if its arguments are."""
     if expr in (sp.zoo, sp.nan):
-        return [sp.false]
+        return (sp.false,)
     unknown = sp.Ne(expr, sp.zoo, evaluate=False)
     if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
-        return [unknown]
+        return (unknown,)
     if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:
-        return [expr.args[0].cond if len(expr.args) == 1 else unknown]
+        return (expr.args[0].cond if len(expr.args) == 1 else unknown,)
     if isinstance(expr, sp.Derivative):
         rated = expr.expr in WEARING and expr.variables == (t,)
-        return [] if rated or is_slope_of_law(expr) else [unknown]
+        return () if rated or is_slope_of_law(expr) else (unknown,)
     if isinstance(expr, sp.Pow):
         base, exponent = expr.args
         if exponent.is_Integer:
-            return [sp.Ne(base, 0)] if exponent.is_negative else []
+            return (sp.Ne(base, 0),) if exponent.is_negative else ()
         relation = sp.Ge if exponent.is_positive else sp.Gt
-        return [relation(base, 0, evaluate=False)]
+        return (relation(base, 0, evaluate=False),)
     if isinstance(expr, sp.log):
-        return [sp.Gt(expr.args[0], 0)]
+        return (sp.Gt(expr.args[0], 0),)
     if isinstance(expr, sp.besseli):
-        return [] if expr.order.is_Integer else [unknown]
+        return () if expr.order.is_Integer else (unknown,)
     if isinstance(expr, sp.LambertW):
-        return [sp.Ge(expr.args[0] + sp.exp(-1), 0) if len(expr.args) == 1 else unknown]
+        return (sp.Ge(expr.args[0] + sp.exp(-1), 0) if len(expr.args) == 1 else unknown,)
     if isinstance(expr, sp.Ei):
-        return [sp.Ne(expr.args[0], 0)]
+        return (sp.Ne(expr.args[0], 0),)
     partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
-    return [unknown] if partial and not isinstance(expr, AppliedUndef) else []
+    return (unknown,) if partial and not isinstance(expr, AppliedUndef) else ()
 
 
-def implied_by(expr: sp.Basic) -> list[sp.Basic]:
+def implied_by(expr: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the relation that holds wherever an expression is defined.
 
     There is none for a power with a symbolic exponent, which may be defined for any base.
     """
-    return [] if isinstance(expr, sp.Pow) and not expr.exp.is_Rational else needs(expr)
+    return () if isinstance(expr, sp.Pow) and not expr.exp.is_Rational else needs(expr)
 
 
 def is_slope_of_law(expr: sp.Basic) -> bool:

@@ -17,6 +17,7 @@ Key results
     EXPONENTIAL  p_max exp(-h/sigma), the tail of a Greenwood-Williamson contact
     GENERAL      an unspecified positive, decreasing phi, for the general theorems
     StableForm   a form to compute with: intermediates, value and slope
+    written_out  an expression with a formula for an unspecified law
     unclamped    an expression without the bound on exponents
 """
 
@@ -26,6 +27,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import sympy as sp
+from sympy.core.function import AppliedUndef, UndefinedFunction
 
 r = sp.Symbol("r", real=True)
 """Closure over equivalent roughness, h/sigma."""
@@ -121,6 +123,27 @@ GENERAL = ContactLaw(
 
 LAWS = MappingProxyType({law.name: law for law in (TANH, EXPONENTIAL)})
 """The laws that code is generated for."""
+
+
+def written_out(expr: sp.Expr, function: sp.Lambda, name: UndefinedFunction) -> sp.Expr:
+    """Return an expression with an unspecified function of one variable, and its slope, written
+    out.
+
+    >>> phi = GENERAL.phi.func
+    >>> written_out(sp.Symbol("x") * phi(2 * r), sp.Lambda(r, 1 / r), phi)
+    x/(2*r)
+    """
+    (variable,), body = function.signature, function.expr
+    slope = sp.diff(body, variable)
+    parts = {f: body.xreplace({variable: f.args[0]}) for f in expr.atoms(AppliedUndef)
+             if f.func == name}  # fmt: skip
+    for rate in expr.atoms(sp.Derivative):
+        if rate.expr.func == name and rate.variables == rate.expr.args:
+            parts[rate] = slope.xreplace({variable: rate.variables[0]})
+    for at in expr.atoms(sp.Subs):
+        if at.expr in parts:
+            parts[at] = parts[at.expr].xreplace({at.variables[0]: at.point[0]})
+    return expr.xreplace(parts)
 
 
 def unclamped(expr: sp.Expr) -> sp.Expr:

@@ -133,7 +133,7 @@ class _Translator:
     def number(self, expr: sp.Expr) -> z3.ArithRef:
         """Return an expression for z3, with opaque parts except in polynomials, roots, pieces."""
         if isinstance(expr, sp.Rational):
-            return z3.Q(int(expr.p), int(expr.q))
+            return z3.RealVal(str(expr))
         if isinstance(expr, sp.Add):
             return z3.Sum(*map(self.number, expr.args))
         if isinstance(expr, sp.Mul):

@@ -24,6 +24,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
+from sympy.core.relational import Relational
 
 from .claims import landau_o
 from .laws import r
@@ -77,7 +78,10 @@ def evaluated(expr: sp.Basic) -> sp.Basic:
     """Return the evaluated form of an expression that was built unevaluated."""
     if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
         return expr
-    return expr.func(*(evaluated(argument) for argument in expr.args))
+    arguments = map(evaluated, expr.args)
+    if isinstance(expr, Relational):  # stays one, without an attempt to decide it
+        return expr.func(*arguments, evaluate=False)
+    return expr.func(*arguments)
 
 
 class _Reader(ast.NodeVisitor):

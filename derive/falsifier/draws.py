@@ -23,12 +23,12 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.solvers.solveset import NonlinearError, linear_coeffs
 
-from ..claims import FirstZero
-from ..laws import GENERAL
+from ..claims import FirstZero, mapped
+from ..laws import GENERAL, written_out
 from ..symbols import DATA, symbol, t
 from .balls import UndecidedError
 from .expansion import ExpansionTerm
-from .models import Model, dependencies, forms_of, quantities, slope_between_jumps
+from .models import Model, dependencies, forms_of, quantities
 from .values import field_of, truth
 
 T, U, V = symbol("T"), symbol("U"), symbol("V")
@@ -40,10 +40,15 @@ _CLOSED = (sp.Limit, sp.Integral, sp.Subs, ExpansionTerm)
 
 
 _PHI, _RATIO = GENERAL.phi.func, sp.Dummy("r", real=True)
-LAWS = (
-    sp.exp(-_RATIO),
-    1 / (1 + sp.exp(4 * _RATIO - 8)),
-    (1 - (_RATIO - 1) / sp.sqrt(1 + (_RATIO - 1) ** 2)) / 2,
+_PLAIN = sp.Dummy(real=True)
+"""A variable in place of a field."""
+LAWS = tuple(
+    sp.Lambda(_RATIO, law)
+    for law in (
+        sp.exp(-_RATIO),
+        1 / (1 + sp.exp(4 * _RATIO - 8)),
+        (1 - (_RATIO - 1) / sp.sqrt(1 + (_RATIO - 1) ** 2)) / 2,
+    )
 )
 """Contact laws: positive, smooth and decreasing."""
 
@@ -53,8 +58,7 @@ def with_law(relation: sp.Basic, number: int) -> sp.Basic:
     """Return a relation with one of LAWS in place of the unspecified contact law."""
     if not relation.has(_PHI):
         return relation
-    specific = relation.replace(_PHI, sp.Lambda(_RATIO, LAWS[number]))
-    return specific.replace(lambda e: isinstance(e, sp.Subs), lambda slope: slope.doit())
+    return mapped(relation, lambda side: written_out(side, LAWS[number], _PHI))
 
 
 @dataclass
@@ -208,15 +212,24 @@ def _as_state(
     field: sp.Expr, image: sp.Expr, others: dict[sp.Expr, sp.Expr]
 ) -> dict[sp.Expr, sp.Expr]:
     """Return the rate and the start of a field ``y = G(y)``: y' = G_t + G_y y'."""
-    rate, slope, start = field.diff(t), sp.Dummy(), sp.Dummy()
-    inlined = Model({**others, rate: rate}).inlined(image)
+    rate = field.diff(t)
+    inlined = Model({**others, rate: rate}).inlined(image, about=field)
     if inlined.has(sp.floor):
         raise UndecidedError("an implicit field that jumps")
-    whole = slope_between_jumps(inlined).xreplace({rate: slope})
-    return {
-        rate: whole.xreplace({slope: sp.S.Zero}) / (1 - sp.diff(whole, slope)),
-        field.subs(t, 0): FirstZero(start - inlined.xreplace({field: start}), start),
-    }
+    return {rate: _implicit_rate(field, inlined), field.subs(t, 0): _first_root(field, inlined)}
+
+
+@cache
+def _implicit_rate(field: sp.Expr, image: sp.Expr) -> sp.Expr:
+    """Return the rate of a field ``y = G(y)``."""
+    flat = image.xreplace({field: _PLAIN})
+    return (sp.diff(flat, t) / (1 - sp.diff(flat, _PLAIN))).xreplace({_PLAIN: field})
+
+
+@cache
+def _first_root(field: sp.Expr, image: sp.Expr) -> FirstZero:
+    """Return the value of a field ``y = G(y)``."""
+    return FirstZero(_PLAIN - image.xreplace({field: _PLAIN}), _PLAIN)
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:

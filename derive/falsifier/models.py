@@ -174,15 +174,43 @@ class Model:
             raise UndecidedError(f"{field} is not in the model")
         return slope_between_jumps(self.formula(field, order - 1))
 
-    def inlined(self, expr: sp.Expr) -> sp.Expr:
-        """Return an expression in time, states, data and initial values."""
+    def inlined(self, expr: sp.Expr, about: sp.Expr | None = None) -> sp.Expr:
+        """Return an expression in time, states, data and initial values.
+
+        Only fields and rates that rest on ``about``, if given, are written out.
+        """
         for _ in range(_DEEP):
-            rates = {d: self.formula(d.expr, d.derivative_count) for d in expr.atoms(sp.Derivative)}
-            fields = (f for f in expr.atoms(AppliedUndef) - self.states.keys() if f.args == (t,))
-            if not (parts := rates or {f: self.formula(f, 0) for f in fields}):
+            parts = moving_parts(expr) - self.states.keys()
+            if about is not None:
+                parts = frozenset(p for p in parts if self._rests(p, about))
+            if not parts:
                 return expr
-            expr = expr.xreplace(parts)
+            expr = expr.xreplace({part: self._formula_of(part) for part in parts})
         raise UndecidedError(f"{expr} rests on itself")
+
+    def _rests(self, part: sp.Expr, quantity: sp.Expr) -> bool:
+        return quantity in dependencies((part,), self.values, states=False)
+
+    def _formula_of(self, part: sp.Expr) -> sp.Expr:
+        rate = isinstance(part, sp.Derivative)
+        return self.formula(part.expr, part.derivative_count) if rate else self.formula(part, 0)
+
+    def formulas(self, expressions: Iterable[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
+        """Return the fields and rates on which expressions rest, beside states, with their
+        formulas, each after those that it needs."""
+        found: dict[sp.Expr, sp.Expr] = {}
+
+        def visit(expr: sp.Expr, depth: int) -> None:
+            if depth > _DEEP:
+                raise UndecidedError(f"{expr} rests on itself")
+            for part in sorted(moving_parts(expr) - self.states.keys() - found.keys(), key=str):
+                formula = self._formula_of(part)
+                visit(formula, depth + 1)
+                found[part] = formula
+
+        for expr in expressions:
+            visit(expr, 0)
+        return found
 
     @cached_property
     def motion(self) -> Motion:
@@ -303,6 +331,19 @@ def _towards(point: sp.Expr) -> list[fmpq]:
 
 
 @cache
+def moving_parts(expr: sp.Expr) -> frozenset[sp.Expr]:
+    """Return the fields at time t and the rates in an expression."""
+    found, nodes = set(), sp.preorder_traversal(expr)
+    for node in nodes:
+        if isinstance(node, sp.Derivative):
+            found.add(node)
+            nodes.skip()
+        elif isinstance(node, AppliedUndef) and node.args == (t,):
+            found.add(node)
+    return frozenset(found)
+
+
+@cache
 def slope_between_jumps(expr: sp.Expr) -> sp.Expr:
     """Return the derivative in time between jumps."""
     steps = {step: sp.Dummy() for step in expr.atoms(sp.floor)}
@@ -316,8 +357,9 @@ def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]]) -> Motion:
     first, slopes = (
         np.array([model.in_floats(f, order) for f in model.states]) for order in (0, 1)
     )
-    formulas = [model.inlined(model.formula(state, 1)) for state in model.states]
-    rates = rates_in_floats(tuple(model.states), formulas, model.in_floats)
+    slopes_of_states = [model.formula(state, 1) for state in model.states]
+    known = model.formulas(slopes_of_states)
+    rates = rates_in_floats(tuple(model.states), slopes_of_states, known, model.in_floats)
     if not np.allclose(rates(np.zeros(1), first[:, None])[:, 0], slopes, rtol=1e-9, atol=0):
         raise UndecidedError("rates below their rounding error")
     spacing = min(_spacings(model), default=0.0)

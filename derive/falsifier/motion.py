@@ -16,7 +16,7 @@ References
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, NamedTuple
@@ -143,22 +143,30 @@ class Motion:
 
 
 def rates_in_floats(
-    states: Sequence[sp.Expr], rates: Sequence[sp.Expr], value: Callable[[sp.Expr], float]
+    states: Sequence[sp.Expr],
+    rates: Sequence[sp.Expr],
+    formulas: Mapping[sp.Expr, sp.Expr],
+    value: Callable[[sp.Expr], float],
 ) -> Callable[[Array, Array], Array]:
     """Return the rates as a function of the times and of the states, shape ``(states, times)``.
 
-    ``rates`` are expressions in time, states, and data, of which ``value`` gives the numbers.
+    ``rates`` are expressions in time, states, data, of which ``value`` gives the numbers, and
+    other fields and rates, whose ``formulas`` stand after those that they need.
     """
-    whole = sp.Tuple(*rates)
-    if whole.has(sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
+    names = {part: sp.Symbol(f"part_{number}") for number, part in enumerate(formulas)}
+    parts = [(name, formulas[part].xreplace(names)) for part, name in names.items()]
+    rates = [rate.xreplace(names) for rate in rates]
+    whole = sp.Tuple(*rates, *(formula for _, formula in parts))
+    if whole.has(sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.zoo, sp.nan):
         raise UndecidedError(f"{whole} has no numerical value")
     fields = whole.atoms(AppliedUndef)
     if any(field.args not in ((t,), (0,)) for field in fields):
         raise UndecidedError("a rate that needs another time")
     moving = (t, *states)
-    data = tuple(sorted((fields | whole.atoms(sp.Symbol)) - set(moving), key=str))
+    unknown = (fields | whole.atoms(sp.Symbol)) - {*moving, *names.values()}
+    data = tuple(sorted(unknown, key=str))
     values = list(map(value, data))
-    function = _compiled(tuple(rates), (*moving, *data))
+    function = _compiled(tuple(rates), tuple(parts), (*moving, *data))
 
     def evaluated(times: Array, at: Array) -> Array:
         result = np.empty((len(at), len(times)))
@@ -170,6 +178,19 @@ def rates_in_floats(
 
 
 @cache
-def _compiled(rates: tuple[sp.Expr, ...], names: tuple[sp.Expr, ...]) -> Callable[..., list[Any]]:
-    """Return a function that models with the same equations share."""
-    return sp.lambdify(names, list(rates), "numpy", cse=True, docstring_limit=0)
+def _compiled(
+    rates: tuple[sp.Expr, ...],
+    parts: tuple[tuple[sp.Symbol, sp.Expr], ...],
+    names: tuple[sp.Expr, ...],
+) -> Callable[..., list[Any]]:
+    """Return a function that models with the same equations share; ``parts`` come first."""
+
+    def in_order(whole: list[sp.Expr]) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
+        shared, known = sp.numbered_symbols("shared_"), []
+        for name, formula in parts:
+            replaced, (rest,) = sp.cse(formula, shared)
+            known += [*replaced, (name, rest)]
+        replaced, rest = sp.cse(whole, shared)
+        return [*known, *replaced], rest
+
+    return sp.lambdify(names, list(rates), "numpy", cse=in_order, docstring_limit=0)

@@ -296,22 +296,25 @@ class Truth:
 def truth(relation: sp.Basic, model: Any) -> Truth:
     """Return whether a relation holds in a model for all its times."""
     timeless = t not in relation.free_symbols
+
+    def when(time: Number) -> str:
+        return "" if timeless else f"at {t} = {_shown(time)}: "
+
     outcomes: set[bool | None] = set()
     for number, time in enumerate(model.times[:1] if timeless else model.times):
         moment = Moment(model, time)
-        when = "" if timeless else f"at {t} = {_shown(time)}: "
         holds = None
         try:
             holds = holds_at(relation, moment)
         except UndefinedError as reason:
-            return Truth(False, f"{when}{reason}")
+            return Truth(False, f"{when(time)}{reason}")
         except NoValueError as reason:
             if number < EARLY:
                 return Truth(None, str(reason))
         except (ArithmeticError, ValueError, RecursionError):
             pass
         if holds is False:
-            return Truth(False, when + _sides(relation, moment))
+            return Truth(False, when(time) + _sides(relation, moment))
         if holds or number < EARLY:
             outcomes.add(holds)
     return Truth(True if outcomes == {True} else None)

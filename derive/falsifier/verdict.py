@@ -22,7 +22,16 @@ from flint import fmpq
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ..claims import Asymptotic, Claim, FirstZero, Predicate, Property, SlowEquation, Term
+from ..claims import (
+    Asymptotic,
+    Claim,
+    FirstZero,
+    Predicate,
+    Property,
+    SlowEquation,
+    Term,
+    mapped,
+)
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, domain
 from ..symbols import symbol, t
@@ -301,8 +310,12 @@ def _in_time(relations: Relations, imposed: Relations) -> Relations:
         relations = tuple(map(_unscaled, relations))
     for given in imposed:
         if isinstance(given, sp.Eq) and given.lhs.is_Symbol and t in given.rhs.free_symbols:
-            relations = tuple(r.subs(given.lhs, given.rhs) for r in relations)
+            relations = tuple(_inserted(given, relation) for relation in relations)
     return relations
+
+
+def _inserted(given: sp.Eq, relation: sp.Basic) -> sp.Basic:
+    return mapped(relation, lambda side: side.subs(given.lhs, given.rhs))
 
 
 def _unscaled(relation: sp.Basic) -> sp.Basic:
@@ -310,4 +323,5 @@ def _unscaled(relation: sp.Basic) -> sp.Basic:
     terms = {term: ExpansionTerm(term, sp.S.Zero) for term in relation.atoms(Term)}
     fields = {f: f.func(t) for f in relation.atoms(AppliedUndef) if f.args == (_TAU,)}
     rates = {f.diff(_TAU): _T * now.diff(t) for f, now in fields.items()}
-    return relation.xreplace(rates).xreplace({**terms, **fields}).xreplace({_TAU: t / _T})
+    parts = {**rates, **terms, **fields}
+    return mapped(relation, lambda side: side.xreplace(parts).xreplace({_TAU: t / _T}))

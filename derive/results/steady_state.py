@@ -179,7 +179,7 @@ class SteadyState:
         """Relative distance of the rate from its limit (laws whose ln has a bounded slope)."""
         y = sp.Dummy("r", real=True)
         function = sp.Lambda(y, self.law.ratio(y))
-        steepest = -sp.limit(sp.diff(self.law.phi, r) / self.law.phi, r, sp.oo)
+        steepest = -sp.limit(self.law.stable.far_steepness, r, sp.oo)
         ratio, limit = self.closure / roughness, 1 / f_c
         rule = LogarithmicSlope(function, ratio, limit, steepest)
         lemma = infer(rule, self.roughening, self.worn)

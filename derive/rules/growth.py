@@ -13,6 +13,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -207,7 +208,12 @@ class AtInfinity(Rule):
 
 def taylor(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
     """Return the coefficient of z^n in the Taylor expansion at z = 0."""
-    return (sp.diff(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
+    return (_derivative(expr, z, n) / sp.factorial(n)).subs(z, 0).doit()
+
+
+@cache
+def _derivative(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
+    return sp.diff(_derivative(expr, z, n - 1), z) if n else expr
 
 
 class Intermittent(Rule):

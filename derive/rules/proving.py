@@ -46,8 +46,8 @@ _CONTINUOUS = (
     *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, sp.sin, sp.cos, sp.Abs),
     *(LAW, sp.Symbol),
 )
-
-
+#: What is continuous in time by itself.
+_MOVES = WEARING.union(symbols("t tau N"))
 _LATE = (Asymptotic, Limit)
 """Claims on what happens in the limit alone."""
 
@@ -134,7 +134,7 @@ def _continuous_fields(facts: Set[sp.Basic]) -> set[sp.Basic]:
 
 def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
     """Return whether an expression is continuous in time wherever it has a value."""
-    if constant(expr) or expr in (*symbols("t tau N"), *WEARING, *fields):
+    if expr in _MOVES or expr in fields or constant(expr):
         return True
     composed = bool(expr.args) and isinstance(expr, _CONTINUOUS)
     if isinstance(expr, sp.Pow) and not constant(expr.exp):

@@ -9,6 +9,7 @@ Key results
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TypeVar
 
 import sympy as sp
@@ -105,18 +106,22 @@ def functions(expr: sp.Basic) -> set[sp.Expr]:
     return {f for f in expr.atoms(AppliedUndef) if not isinstance(f, LAW)}
 
 
+@cache
 def constant(expr: sp.Basic) -> bool:
     """Return whether an expression is independent of time, without integrals and limits."""
     moving = expr.has(t) or clocks(expr)
     return not moving and not expr.atoms(sp.Derivative, sp.Integral, sp.Limit) - _slopes(expr)
 
 
-def clocks(expr: sp.Basic) -> set[sp.Basic]:
+@cache
+def clocks(expr: sp.Basic) -> frozenset[sp.Basic]:
     """Return the symbols in an expression that vary in time, and time itself outside of fields."""
+    if CLOCKS.isdisjoint(s.name for s in expr.free_symbols):
+        return frozenset()
     parts = functions(expr) | expr.atoms(Drift)
     still = {part: sp.Dummy() for part in parts if not _by_clock(part)}
     free = expr.xreplace(still).free_symbols
-    return {s for s in free if s.name in CLOCKS and not isinstance(s, sp.Dummy)}
+    return frozenset(s for s in free if s.name in CLOCKS and not isinstance(s, sp.Dummy))
 
 
 def _by_clock(expr: sp.Expr) -> bool:
