@@ -282,13 +282,13 @@ def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
 def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:
     """Return relations at a late time, and between limits, which keep an order but no strictness.
 
-    Then what tends to infinity exceeds every constant, and the rest is near its limit.  What has a
-    rate above a positive constant tends to infinity; a periodic field is what it was at the start.
+    Then what tends to infinity exceeds every constant, and the rest is near its limit.  What stays
+    above a multiple of time tends to infinity; a periodic field is what it was at the start.
     """
     said = [part for relation in relations for part in sp.And.make_args(relation)]
     limits = [r for r in said if isinstance(r, sp.Eq) and isinstance(r.lhs, sp.Limit)]
     ends = [(limit.lhs.args[0], limit.rhs) for limit in limits]
-    ends += [(r.gts.expr, sp.oo) for r in said if r.func in _WEAK and _speeds(r)]
+    ends += [(grown, sp.oo) for grown in map(_growing, said) if grown is not None]
     if not ends:
         return frozenset()
     said += [sp.Eq(r.rhs, r.rhs.subs(t, 0), evaluate=False) for r in said if _repeats(r)]
@@ -307,16 +307,18 @@ def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:
     return frozenset(facts)
 
 
-def _speeds(order: Relational) -> bool:
-    """Return whether an inequality says that a rate exceeds a positive constant."""
-    if isinstance(order, sp.Eq) or not isinstance(order.gts, sp.Derivative):
-        return False
-    least = order.lts
-    return (
-        order.gts.variables == (t,)
-        and bool(least.is_positive)
-        and CLOCKS.isdisjoint(map(str, least.free_symbols))
-    )
+def _growing(order: sp.Basic) -> sp.Expr | None:
+    """Return the field that a relation keeps above a multiple of time, or whose rate it keeps above
+    a positive constant; None for others."""
+    if order.func not in _WEAK:
+        return None
+    grown, speed = order.args if isinstance(order, sp.Eq) else (order.gts, order.lts)
+    if isinstance(grown, sp.Derivative) and grown.variables == (t,):
+        grown = grown.expr
+    else:
+        speed = sp.diff(speed, t)
+    steady = speed.is_positive and CLOCKS.isdisjoint(map(str, speed.free_symbols))
+    return grown if steady and isinstance(grown, AppliedUndef) else None
 
 
 def _repeats(relation: sp.Basic) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from ..claims import Equality, Limit, Property, Term, claim_of, landau_o
+from ..claims import Equality, Limit, Oscillation, Property, Term, claim_of, landau_o
 from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..language import defined_by
@@ -42,7 +42,8 @@ class Assume(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
-        instant = bool(clocks(relation)) and all(map(constant, functions(relation)))
+        now = at_an_instant(relation)
+        instant = bool(clocks(now)) and all(map(constant, functions(now)))
         named = kind is Kind.DEFINITION
         if (
             relation in (sp.true, sp.false)
@@ -87,6 +88,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)
+        if isinstance(term, Oscillation) and name.args != (symbol("tau"),):
+            raise RuleError(f"missing premise: {name} is a name for a function of tau")
     facts = lasting_facts(premises)
     goals = [*undefined(whole.xreplace(terms), *premises, always=True)]
     if implicit is None and sign is not None:

@@ -28,7 +28,7 @@ from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
 from .growth import expanded, taylor
-from .proving import continuous, facts_of, require_defined
+from .proving import coefficients, continuous, facts_of, require_defined
 from .reading import T, clocks, constant, equality, fields, functions, require_hypothesis
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
@@ -165,9 +165,9 @@ class Averaging(Rule):
             no_mean = _periodic(value) and mean(turning(value, tau)) == 0
             right = law.lhs != whole and no_mean and slope == 0
         else:
-            even = not any(sp.diff(rest, wave).has(tau) for wave in waves)
-            average = mean(turning(rest.xreplace(waves), tau)) if even else sp.nan
-            right = is_zero(average + rho * (name - value))
+            *slopes, alone = coefficients(rest, *waves) or (tau, rest)
+            average = mean(turning(alone, tau))
+            right = constant(sp.Tuple(*slopes)) and is_zero(average + rho * (name - value))
         if not right:
             raise RuleError(f"missing premise: {name} = {value} by the mean of {rest}")
         return Conclusion(Equality(name, value))
@@ -220,9 +220,14 @@ class SlowTime(Rule):
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)
         large, log = sp.Dummy("m"), sp.Dummy("log")
         inside = sp.expand(self.claim.rhs.subs(sp.log(m / rho), log).subs(m, large))
-        terms = sp.Add.make_args(inside)
-        if not all(term.has(large, log) and constant(term) for term in terms) or inside.has(sp.log):
-            raise RuleError("missing premise: the right side is a function of m without a constant")
+        terms = (term.as_independent(large, log) for term in sp.Add.make_args(inside))
+        plain = (
+            constant(factor) and (part == log or (base == large and power.is_Integer))
+            for factor, part in terms
+            for base, power in (part.as_base_exp(),)
+        )
+        if not all(plain):
+            raise RuleError("missing premise: the right side has powers of m, and ln(m/rho), alone")
         remainder = sp.Poly(sp.expand(slope * speed - 1), small)
         if self.claim.lhs != rho * tau + s_0 or any(n <= ORDER for (n,) in remainder.monoms()):
             raise RuleError("missing premise: dtau/dm times dm/dtau is 1 + O(m^-5)")

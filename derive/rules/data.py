@@ -18,11 +18,11 @@ from ..language import defined_by, names
 from ..laws import r
 from ..note.model import subject
 from ..reals import holds
-from ..symbols import DATA, symbols
+from ..symbols import CLOCKS, DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
 from .proving import is_contact_law, open_set, require_defined, smooth, undefined
-from .reading import clocks, equality, functions
+from .reading import equality, functions
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
@@ -51,23 +51,24 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
 
 
 def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
-    """Return the data in a relation, directly or by defined names: all, if a name is of fields."""
+    """Return the data in a relation, directly or by defined names: all, if a name is of fields or
+    has no definition, since that may follow."""
     about = {name for name, _ in names(relation)}
     for _ in definitions:
         defining = (names(known) for known in definitions if about & defined_by(known))
         about = about.union(name for group in defining for name, _ in group)
     of_fields = any(functions(known) for known in definitions if about & defined_by(known))
-    return DATA if of_fields else about & DATA
+    told = DATA.union(CLOCKS, *map(defined_by, definitions))
+    return DATA if of_fields or not about <= told else about & DATA
 
 
 def _is_open(relation: sp.Basic, definitions: Collection[sp.Basic]) -> bool:
-    """Return whether a relation that no clock moves holds on an open set of data, with the names in
-    it written out."""
+    """Return whether a relation, with the names in it written out, is between data alone and holds
+    on an open set of them."""
     values = {known.lhs: known.rhs for known in definitions if isinstance(known, sp.Equality)}
     while (told := relation.xreplace(values)) != relation:
         relation = told
-    implicit = frozenset[str]().union(*map(defined_by, definitions))
-    told = implicit.isdisjoint(name for name, _ in names(relation)) and not clocks(relation)
+    told = all(name in DATA for name, _ in names(relation))
     return told and open_set(relation)
 
 

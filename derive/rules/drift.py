@@ -19,7 +19,7 @@ from ..symbols import symbols, t
 from ..zero import is_zero
 from .growth import bounds
 from .limits import in_terms_of, in_time
-from .proving import continuous, facts_of, require, require_defined, smooth
+from .proving import coefficients, continuous, facts_of, require, require_defined, smooth
 from .reading import (
     T,
     clocks,
@@ -58,12 +58,11 @@ class FirstOrder(Rule):
         first = sp.expand(u * (x.expr - x.value) - approach.expr)
         for field in fields(first):
             bounds(field, *premises)
-            if not constant(sp.diff(first, field)):
-                raise RuleError(f"missing premise: {first} is linear in bounded fields")
+        parts = coefficients(first, *fields(first))
+        if parts is None or not constant(sp.Tuple(*parts)):
+            raise RuleError(f"missing premise: {first} is linear in bounded fields")
         if not smooth(function) or not continuous(function, {y: x.value}, *premises):
             raise RuleError(f"missing premise: {function} is differentiable at the limit")
-        if not constant(first.subs(dict.fromkeys(fields(first), 0))):
-            raise RuleError(f"missing premise: {first} is bounded")
         if not is_zero(function.subs(y, x.value) - steady.value):
             raise RuleError(f"missing premise: {steady.value} is the rate at the limit")
         require(sp.Gt(steady.value, 0), *premises)
@@ -94,10 +93,9 @@ class LogarithmicDrift(Rule):
         periodic = -flat.subs(t, 0)
         speed = sp.expand(now - sp.diff(flat, t))
         rest = sp.expand(flat - t * (now - speed) + periodic)
-        slope = sp.diff(periodic, load)
-        straight = smooth(periodic, load) and sp.diff(slope, load) == 0
-        linear = straight and constant(sp.Tuple(periodic, slope))
-        if approach.value != 0 or rest != 0 or speed.has(now) or not constant(speed) or not linear:
+        parts = coefficients(periodic, load)
+        linear = parts is not None and constant(sp.Tuple(speed, *parts))
+        if approach.value != 0 or rest != 0 or speed.has(now, load) or not linear:
             raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
         drift = (u - speed * t) / sp.log(t / T)
         return Conclusion(in_time(drift, periodic.subs(load, U_mean)))
@@ -162,7 +160,8 @@ class LeadingTerm(Rule):
         worn, cycles = (e.xreplace({s: small}) for e in (leading, given.rhs / pace))
         slope, claimed = sp.diff(cycles, small), sp.diff(worn, small)
         moving = cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
-        if moving or not constant(sp.Tuple(pace, worn, slope)):
+        rises = smooth(worn, small) and smooth(slope, small)
+        if moving or not rises or not constant(sp.Tuple(pace, worn, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
         require(sp.Ne(pace, 0), *premises)
         require(sp.Ge(s, 0), *premises)

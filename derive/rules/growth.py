@@ -174,9 +174,9 @@ class AtInfinity(Rule):
         u, inside = growing(premises[0]), self.claim.lhs.args[0]
         z = sp.Dummy("z", positive=True)
         deep = self._deep(u, z, premises)
-        if not constant(inside.subs(dict.fromkeys(fields(inside), z))):
-            raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
         plain = _plain(fields(inside) - {u})
+        if not constant(inside.xreplace({**plain, u: z})):
+            raise RuleError(f"missing premise: {inside} depends on {u} and bounded fields alone")
         for field in plain:
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))

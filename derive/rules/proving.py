@@ -10,6 +10,7 @@ Key results
     require_defined          RuleError unless every part of an expression has a value
     undefined                the relations that are missing
     continuous               whether an expression is continuous at a point
+    coefficients             the slopes and the rest of what is affine in some parts
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, Continuous, Limit, Property
+from ..claims import Asymptotic, Continuous, FirstZero, Limit, Property, Term
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
 from ..language import bound, certain, implied_by, needs
@@ -295,6 +296,26 @@ def smooth(expr: sp.Expr, *unknowns: sp.Basic) -> bool:
     parts = sp.preorder_traversal(expr)
     changing = (part for part in parts if not unknowns or part.has(*unknowns))
     return all(isinstance(part, _SMOOTH) for part in changing)
+
+
+def coefficients(expr: sp.Expr, *parts: sp.Expr) -> tuple[sp.Expr, ...] | None:
+    """Return the slopes and the rest of an expression that is affine in some parts; else None.
+
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> coefficients(2 * x + y * t, x, y), coefficients(x * y, x, y)
+    ((2, t, 0), None)
+    >>> coefficients(sp.Piecewise((y, x > 0), (0, True)), x) is None
+    True
+    """
+    own = {part: sp.Dummy(real=True) for part in parts}
+    flat = expr.xreplace(own)
+    closed = flat.atoms(sp.Derivative, sp.Integral, sp.Limit, sp.Subs, FirstZero, Term)
+    names = own.values()
+    slopes = [sp.diff(flat, name) for name in names]
+    inside = (*slopes, *closed)
+    if not smooth(flat, *names) or any(part.has(*names) for part in inside):
+        return None
+    return *slopes, flat.xreplace(dict.fromkeys(names, sp.S.Zero))
 
 
 def smooth_everywhere(expr: sp.Expr) -> bool:

@@ -7,7 +7,8 @@ import sympy as sp
 from derive.claims import Drift, Oscillation
 from derive.kernel import infer
 from derive.reals import LAW as PHI
-from derive.rules.algebra import Consequence, substitute
+from derive.results.steady_state import steady_state
+from derive.rules.algebra import Consequence, Insert, substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.averages import (
     EXPANSION,
@@ -51,7 +52,7 @@ u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q b_0")
 U, L, R, A, rho, h_star, theta, tau, m = symbols("U L R A rho h_star theta tau m")
 c_1, w_1, s_0 = symbols("c_1 w_1 s_0")
-s = sp.Symbol("s", nonnegative=True)
+s, z = sp.Symbol("s", nonnegative=True), sp.Symbol("z", real=True)
 du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
@@ -94,6 +95,18 @@ def wave_of_acceleration():
     return Averaging(equal(w_1, rho * U * sp.sin(turn) / (2 * sp.pi)))(known)
 
 
+def oscillation_as(name):
+    return defined(
+        name, term_of(Oscillation, 1, steady_state().pressure_at_wear.claim.rhs), ROUGHENS
+    )
+
+
+def mean_of_square():
+    wave = Averaging(sp.Eq(w_1, FIRST_WAVE))(first_order_terms(), averaged_as(FIRST_DRIFT))
+    law = Insert(equal(w_1, w_1 + (w_1**2 - FIRST_WAVE**2) / L))(wave)
+    return Averaging(equal(L, L - ((1 - theta) * U * rho / sp.pi) ** 2 / (2 * rho * L)))(law)
+
+
 def mean_of(right, mean):
     """Return c_1 from its equation, which has another right side."""
     law = equal(sp.Derivative(w_1, tau), rho * (right - c_1))
@@ -130,7 +143,10 @@ FAMILIES = (
         "a deviation that grows with time": ("linear in bounded", t * U_a / T),
         "a deviation that grows like a root of the wear": ("linear in bounded|is bounded",
             U_a * sp.sqrt(1 + u_c**2 / q**2)),
-        "a load and time": ("is bounded", U_a + h_0 * t / T),
+        "a load and time": ("linear in bounded", U_a + h_0 * t / T),
+        # U_a = 0, u_c' = C e^(-q - L sqrt(t/T)/u_c)
+        "a root of time while the load is positive": ("linear in bounded",
+            sp.Piecewise((L * sp.sqrt(t / T), sp.Gt(U_a, 0)), (0, True))),
         "a deviation that stays": ("with that limit", U_a, LAW, sp.S.One),
         "a rate by another field": ("with that limit", U_a, LAW * (1 + G**2)),
         "a law with a kink": ("differentiable at the limit", U_a, C * sp.Abs(RATIO), 0, C * q),
@@ -173,7 +189,7 @@ FAMILIES = (
         # half as many where b_0 = 0
         "a factor that differs for one value": ("grows without bound",
             FEW + sp.log((b_0**2 * L + 2 * sigma_c) / (b_0**2 * L + sigma_c))),
-        "what wavers": ("grows without bound", FEW + sp.sin(1 / sigma_c)),
+        "what wavers": ("is about", FEW + sp.sin(1 / sigma_c)),
         "a roughness of either trend": ("f_c", FEW, LOG_N, sp.Ne(f_c, 0)),
         "a name that may be zero": ("b_0", FEW + 1 / b_0),
     }),
@@ -230,6 +246,9 @@ FAMILIES = (
         "the wave of a wave": ("by the mean", wave_of_wave),  # w_1' is not w_1
         # w_1 = -rho U cos(2 pi tau)/(4 pi^2)
         "the wave of a second derivative": ("is of an oscillation", wave_of_acceleration),
+        "the mean of the square of a wave": ("by the mean", mean_of_square),  # U^2 rho^2 > 0
+        "an oscillation in time": ("a function of tau", lambda: oscillation_as(G)),
+        "an oscillation for a clock": ("a function of tau", lambda: oscillation_as(z)),
         "half an order": ("number of an order",
             lambda: OrderEquation(sp.Rational(3, 2))(*expansion_premises())),
         "what remembers another start": ("is a new name",
@@ -249,9 +268,11 @@ FAMILIES = (
         "drifts that vanish": ("c_3 and c_4", vanishing_drifts),
     }),
     Family(slow, (h_0**5 / m**4,), {
-        "another constant of integration": ("a function of m", h_0),  # s_0 is one of them
+        "another constant of integration": ("powers of m", h_0),  # s_0 is one of them
+        "a constant from one roughness on": ("powers of m",
+            sp.Piecewise((h_0, sp.Gt(m, L)), (0, True))),
         # h_0^3 u_c/m^4 is no o(m^-3)
-        "a wear that goes like m": ("a function of m", h_0**4 * u_c / m**4),
+        "a wear that goes like m": ("powers of m", h_0**4 * u_c / m**4),
         "a slow time with 0/0": ("Ne", GAP * h_0**5 / m**5),
         "a slow time with a drift less": ("the drifts", 0, 0),
         "a slow time of any roughness": ("Definition of s_0", 0, 4),

@@ -7,7 +7,7 @@ import sympy as sp
 from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
 from derive.kernel import infer
 from derive.laws import GENERAL, r
-from derive.note.model import ARCHARD
+from derive.note.model import ARCHARD, SLIP
 from derive.note.model import START as STARTS
 from derive.rules.algebra import Insert, Solve, substitute
 from derive.rules.assumption import assume, defined
@@ -28,7 +28,7 @@ from derive.rules.inequalities import (
     Threshold,
 )
 from derive.rules.limits import later, one_period_later
-from derive.symbols import initial, rate, symbols, t
+from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import (
     ALMOST,
     BOUNDED,
@@ -91,6 +91,18 @@ def exceeds(function, level, point, right=sp.Gt, both=sp.Equivalent):
 def beside(*facts):
     """Return u_cum = h_0 f_c under the hypotheses of others, too."""
     return Insert(equal(u_cum, h_0 * f_c))(GROWING, *facts)
+
+
+def beside_wear(*facts):
+    """Return u_cum = h_0 f_c, which is h_0 theta, from its definition by theta."""
+    return Insert(equal(u_cum, h_0 * f_c))(defined(u_cum, h_0 * theta, gt(theta, 0)), *facts)
+
+
+def turned():
+    """Return u_cum = T V, where V is R omega."""
+    slip = said(SLIP[0], Kind.MODEL)
+    speed = Insert(equal(symbol("R") * omega, symbol("V")))(slip)
+    return Insert(equal(u_cum, T * symbol("V")))(defined(u_cum, T * symbol("V")), speed)
 
 
 def deflected():
@@ -284,6 +296,15 @@ FAMILIES = (
         "two wears that are equal": ("may vary", equal(sp.Derivative(u_cum, K_a), 0),
             of_one_wear(), K_a),
         # |U_a| <= U at no other f_c than 1/c, where h = c sigma
+        # u_cum = L in one bearing: with u_cum = h_0 f_c the slope is h_0
+        "a name that has a value": ("may vary", equal(SLOPE, 0), eq(u_cum, L)),
+        "a name that equals one without a definition": ("may vary", equal(SLOPE, 0),
+            beside_wear(eq(theta, f_c))),
+        # with theta = L f_c it is the slope at one value of f_c
+        "a bound of a name without a definition": ("may vary", equal(SLOPE, h_0),
+            beside(gt(theta, h_0))),
+        "an angular speed that may be that of n": ("may vary",
+            equal(sp.Derivative(u_cum, symbol("n")), 0), turned(), symbol("n")),
         "two contact laws": ("two contact laws", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.exp(-h / sigma)), eq(p, p_max / (1 + sp.exp(h / sigma))))),
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),

@@ -130,6 +130,9 @@ FAMILIES = (
         "h/u_c with h held fixed": ("h is bounded", h / u_c),  # h = u_c
         "T u_c'/u_c": ("bounded fields alone", T * du / u_c),  # u_c = L e^(t/T)
         "time held fixed as u_c grows": ("bounded fields alone", C * t / u_c),  # u_c = C t
+        # U_a = 0, G = q, u_c = L + C t: q/C
+        "time times what two fields differ by": ("bounded fields alone", t * (G - U_a) / u_c, 0,
+            BOUNDED, le(sp.Abs(G), q)),
         "cycles held fixed as u_c grows": ("N fixed", h_0 * N / u_c),  # u_c = h_0 t/T
         "v(tau) over what grows": ("tau fixed", h_0 * v / u_c),  # v = u_c/h_0
         "U_a has no limit": ("cannot be a limit", U_a + h_0**2 / u_c, U_a, BOUNDED),  # U sin t
