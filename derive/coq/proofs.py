@@ -85,6 +85,10 @@ def _inequality(step: Step, claim: sp.Basic) -> str:
     goal = _inserted(claim_of(claim), [f.relation for f in facts if f.equates]).relation
     start = f"{stated(f for f in facts if f.equates or not step.timed)}insert; "
     if isinstance(goal, sp.Equivalent):
+        if step.rule == "Substitute":
+            known, *equations = (fact.at() for fact in step.given)
+            rewritten = "".join(f"rewrite ({equation}) in Q; " for equation in equations)
+            return f"pose proof ({known}) as Q; {rewritten}exact Q"
         return f"{start}split; intro Q; first [arithmetic | from_inequality Q 1]"
     if isinstance(goal, sp.And):
         return f"{start}split; [{' | '.join(_first(_ways(part, bounds)) for part in goal.args)}]"

@@ -51,7 +51,7 @@ def text(steps: Mapping[str, Step]) -> str:
     """Return the lemmas; ``steps`` are those of the equations in NEEDS."""
     return template("refutations").render(
         names=NAMES,
-        drift=steps["19"],
+        drift=steps["19"].parents[0],
         rate=steps["18"],
         ratio=steps["closure-ratio"],
         at_rest=map(read, _AT_REST),

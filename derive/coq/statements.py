@@ -162,7 +162,8 @@ def claim(judgement: Judgement) -> sp.Basic:
 
 
 def world(relations: Iterable[sp.Basic]) -> str:
-    """Return the record of all quantities, with their types, and a world that differs in the wear.
+    """Return the record of all quantities, with their types, and worlds that differ in the wear or
+    in the bound of the load.
 
     UntranslatableError if two of them would have one name.
     """
@@ -180,5 +181,8 @@ def world(relations: Iterable[sp.Basic]) -> str:
     fields.pop("phi", None)
     rows = ";\n".join(f"  {name} :{kind}" for name, kind in sorted(fields.items()))
     same = "; ".join(f"{name} := {name}" for name in sorted(fields))
-    another = f"Definition with_wear {{w : world}} (u_c : R -> R) : world := {{| {same} |}}.\n"
-    return f"Class world := {{\n{rows}\n}}.\n{another}"
+    others = (
+        f"Definition with_{change} {{w : world}} ({named}) : world := {{| {same} |}}.\n"
+        for change, named in (("wear", "u_c : R -> R"), ("bound", "U : R"))
+    )
+    return f"Class world := {{\n{rows}\n}}.\n{''.join(others)}"

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
+from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -98,6 +99,14 @@ def _diverges(step: Step) -> Values:
     grown, flat = step.given[0].relation.gts, sp.Symbol("flat")
     inside = step.relation.lhs.args[0].xreplace({grown: flat})
     return {"start": inside.subs(flat, 0), "slope": sp.diff(inside, flat)}
+
+
+def _bounded(step: Step) -> Values:
+    (parent,) = step.parents
+    chosen = {p: "P" if isinstance(p.relation, sp.Gt) else "B" for p in parent.statement.premises}
+    labels = [step.labels.get(p.proposition, label) for p, label in chosen.items()]
+    (periodic,) = (f for f in step.hypotheses if f.equates and _LOAD in f.relation.args)
+    return {"parent": parent, "labels": labels, "periodic": periodic.proof}
 
 
 def _unbounded(step: Step) -> Values:
@@ -206,9 +215,12 @@ def _lipschitz(step: Step) -> Values:
 
 
 def _threshold(step: Step) -> Values | None:
-    point, level = step.relation.args
-    if isinstance(point, sp.Gt) and point.gts.is_Symbol and level.gts.has(point.gts):
-        return {"point": point.gts, "level": level.gts}
+    for reversed_, (bound, above) in enumerate(permutations(step.relation.args)):
+        point, level = bound.gts, above.gts
+        named = isinstance(bound, sp.Gt) and (point.is_Symbol or point.args == (t,))
+        if named and level.has(point):
+            positive = bool(point.is_positive) or any(f.relation == (point > 0) for f in step.given)
+            return {"point": point, "level": level, "positive": positive, "reversed": reversed_}
     return None
 
 
@@ -222,6 +234,7 @@ _VALUES: Mapping[str, Callable[[Step], Values | None]] = {
     "ByParts": _by_parts,
     "Lipschitz": _lipschitz,
     "LogarithmicDrift": _drift,
+    "PeriodicBound": _bounded,
     "Separate": _separates,
     "Threshold": _threshold,
     "Unbounded": _unbounded,

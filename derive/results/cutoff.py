@@ -43,7 +43,7 @@ from ..note.condensed import bearing_only
 from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, define, defined
 from ..rules.calculus import differentiate
-from ..rules.growth import intermittent
+from ..rules.growth import intermittent, periodic_bound
 from ..rules.inequalities import Arithmetic, Monotone
 from ..symbols import rate, symbols, t
 from .regime_map import OUTGROWN, ROUGHER, THIRD, TOUCHING
@@ -123,7 +123,7 @@ _limit = intermittent(
     *map(assume, (PERIODIC, BOUNDED_LOAD)),
 )
 one_third = Insert(sp.Eq(u_cum, d * K_c * V * T * p_max * TANH.ratio(sp.Integer(3)) / (3 * H_c)))(
-    named_limit(u_cum, _limit, ""), name="wear per cycle for f_c = 1/3"
+    named_limit(u_cum, periodic_bound(_limit), ""), name="wear per cycle for f_c = 1/3"
 )
 """For f_c = 1/3: the steady wear per cycle, d the fraction of the period in contact."""
 

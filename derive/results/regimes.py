@@ -10,7 +10,7 @@ Key results
     tail               the rate is below its exponential tail, by a factor that tends to 1
     logarithmic_wear   f_c = 0: the wear of the tail, for any periodic load
     saturating_wear    f_c < 0, h* > 0: the number of cycles to a roughness, static load
-    closed_gap         f_c < 0, h* <= 0: the rate while the peak of the load is in contact
+    closed_gap         the rate at the peak of the load, where h* < 0
 """
 
 from __future__ import annotations
@@ -19,25 +19,22 @@ import sympy as sp
 
 from ..claims import landau_o
 from ..equations import stated
-from ..hypotheses import CONSTANT, KEPT, SINE, SMOOTHING, Hypothesis
+from ..hypotheses import CONSTANT, KEPT, SINE, SLOPED, SMOOTHING
 from ..laws import TANH
 from ..note.condensed import bearing_only
-from ..rules.algebra import Consequence, Solve, substitute
+from ..rules.algebra import Consequence, Insert, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import LeadingTerm, LogarithmicGrowth
 from ..rules.growth import AtInfinity, unbounded
-from ..rules.inequalities import Arithmetic, Monotone
+from ..rules.inequalities import Arithmetic, Threshold
 from ..rules.limits import forever
 from ..rules.solutions import ByParts, Separate
 from ..symbols import rate, symbols, t
-from .steady_state import closure, roughness, wear_rate
+from .steady_state import closure, roughness
 
 h_0, U_a, u_c, U, N, M, h_star, T = symbols("h_0 U_a u_c U N M h_star T")
 sigma_c0, sigma_c, f_c, p_max, K_c, H_c, V = symbols("sigma_c0 sigma_c f_c p_max K_c H_c V")
 (sigma_s,) = symbols("sigma_s")
-
-OVERLAP = Hypothesis(sp.Ge(U_a, h_0 - sigma_c0 / f_c))
-"""There is no gap at the wear at which the roughness would vanish."""
 
 law = bearing_only().rigid
 """Eq. (13), solved for the rate."""
@@ -98,9 +95,12 @@ saturating_wear = LeadingTerm(sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One))
 )
 """The number of cycles to the roughness sigma_c."""
 
-_ratio = Arithmetic(sp.Le(closure / roughness, 1 / f_c))(assume(OVERLAP), smoothing, grown, rough)
-_bound = Monotone(wear_rate(TANH))(_ratio)
-closed_gap = Consequence(sp.Le(_bound.claim.lesser, rate("u_c")))(
-    _bound, law, name="rate while the gap is closed"
+_bound = K_c * V * p_max / (3 * H_c) * TANH.ratio(1 / f_c)
+_overlap = sp.Gt(U_a, h_0 - sigma_c0 / f_c)
+_faster = Threshold(sp.Equivalent(sp.Gt(law.claim.rhs, _bound), _overlap), U_a)(
+    assume(SLOPED), Arithmetic(sp.Gt(roughness, 0))(grown, rough)
 )
-"""While the load closes the gap, the rate stays above a positive constant."""
+closed_gap = substitute(
+    _faster, Insert(sp.Eq(law.claim.rhs, rate("u_c")))(law), name="rate while the gap is closed"
+)
+"""The rate exceeds a positive constant exactly while the load closes the gap h*."""

@@ -36,7 +36,7 @@ from ..rules.algebra import Consequence, Insert
 from ..rules.assumption import assume, defined
 from ..rules.calculus import grows, rigid
 from ..rules.drift import MEAN, logarithmic_drift
-from ..rules.growth import Diverges
+from ..rules.growth import Diverges, periodic_bound
 from ..rules.inequalities import Arithmetic, LogarithmicSlope, Monotone
 from ..rules.limits import Passes, accumulates, forever, vanishes
 from ..symbols import rate, symbols
@@ -211,4 +211,5 @@ def named_limit(symbol: sp.Expr, limit: Judgement, name: str) -> Judgement:
 def drift(approach: Judgement) -> Judgement:
     """Return the logarithmic drift under a periodic load, from the approach of the rate."""
     mean = defined(MEAN.lhs, MEAN.rhs)
-    return logarithmic_drift(approach, assume(PERIODIC), mean, name="logarithmic drift")
+    bounded = logarithmic_drift(approach, assume(PERIODIC), mean)
+    return periodic_bound(bounded, name="logarithmic drift")

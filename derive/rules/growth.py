@@ -4,6 +4,7 @@ Key results
     Diverges         u >= c t + d with c > 0, and f > 0, give a + f u -> oo
     unbounded        du/dt = F(u, load) with F > 0 and a bounded load gives u -> oo
     AtInfinity       the limit of a function of u and bounded fields as u -> oo
+    periodic_bound   a continuous, periodic load needs no bound
     intermittent     a rate that acts during a fraction d of every period adds d T R
     bounds           the relations that bound a field by constants
 References
@@ -18,10 +19,10 @@ from functools import cache
 import sympy as sp
 from sympy.core.relational import Relational
 
-from ..hypotheses import LOAD, PERIODIC
+from ..hypotheses import BOUNDED_LOAD, CONTINUOUS, LOAD, PERIODIC
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..reals import LAW, holds
-from ..symbols import t
+from ..symbols import symbol, t
 from ..zero import is_zero
 from .limits import in_time
 from .proving import continuity, continuous, facts_of, require, require_defined
@@ -35,6 +36,8 @@ from .reading import (
     rate_law,
     require_hypothesis,
 )
+
+U = symbol("U")
 
 
 class Diverges(Rule):
@@ -76,6 +79,29 @@ def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     if {side for side, _ in found} != {0, 1}:
         raise RuleError(f"missing premise: {field.func} is bounded")
     return tuple(relation for _, relation in found)
+
+
+class PeriodicBound(Rule):
+    """A claim under ``|U_a| <= U`` and a continuous load of period T holds without the bound.
+
+    Such a load is bounded, so that U may be chosen: nothing else may be said of it.
+    """
+
+    words = "A continuous load of period T is bounded, so that {0} needs no bound of it."
+    source = "extreme value theorem"
+    premise_names = ("the claim",)
+
+    def conclude(self, *premises: Judgement) -> Conclusion:
+        (first,) = premises
+        for needed in (BOUNDED_LOAD, PERIODIC, CONTINUOUS):
+            require_hypothesis(needed, first)
+        others = (h.relation for h in first.hypotheses if h != BOUNDED_LOAD)
+        if any(relation.has(U) for relation in (first.relation, *others)):
+            raise RuleError(f"missing premise: nothing else is said of {U}")
+        return Conclusion(first.claim, discharges=(BOUNDED_LOAD,))
+
+
+periodic_bound = PeriodicBound()
 
 
 def _plain(moving: Iterable[sp.Expr]) -> dict[sp.Expr, sp.Symbol]:

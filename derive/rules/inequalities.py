@@ -5,7 +5,7 @@ Key results
     Monotone            a >= b gives F(a) >= F(b) for an increasing F
     Lipschitz           -m <= F' <= 0 bounds the change of F
     LogarithmicSlope    |F'/F| <= m gives |ln(F(a)/F(b))| <= m |a - b|
-    Threshold           F(x) > e if and only if x > x*
+    Threshold           F(x) > e if and only if x > x*, for an increasing F
 """
 
 from __future__ import annotations
@@ -111,10 +111,13 @@ class LogarithmicSlope(Rule):
 
 
 class Threshold(Rule):
-    """``F(x) > e`` if and only if ``x > x*``: F increases on x > 0, and F(x*) = e with x* > 0."""
+    """``F(x) > e`` if and only if ``x > x*``, where F increases and F(x*) = e.
+
+    If x is positive by a premise, F need increase for positive numbers only, and x* is one.
+    """
 
     claim: sp.Equivalent
-    variable: sp.Symbol
+    variable: sp.Expr
     words = "The left side increases with {variable} and equals the level at the bound, by {all}."
 
     def conclude(self, *premises: Judgement) -> Conclusion:
@@ -127,12 +130,13 @@ class Threshold(Rule):
         function, level, point = demand.greater, demand.lesser, bound.lesser
         if bound.greater != self.variable or not (demand.strict and bound.strict):
             raise RuleError(f"missing premise: {self.claim} is strict on both sides")
-        positive = sp.Dummy(positive=True)
-        value = function.subs(self.variable, positive)
-        require(sp.Gt(self.variable, 0), *premises)
+        positive = holds(sp.Gt(self.variable, 0), facts_of(premises))
+        any_ = sp.Dummy(positive=True) if positive else sp.Dummy(real=True)
+        value = function.subs(self.variable, any_)
         require_defined(sp.Tuple(value, level, point), *premises)
-        require(sp.Gt(point, 0), *premises)
-        slope = sp.diff(value, positive)
+        if positive:
+            require(sp.Gt(point, 0), *premises)
+        slope = sp.diff(value, any_)
         if point.has(self.variable) or not smooth(value) or sign(slope, facts_of(premises)) != 1:
             raise RuleError(f"missing premise: {function} increases with {self.variable}")
         if not is_zero(function.subs(self.variable, point) - level):

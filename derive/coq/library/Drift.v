@@ -94,6 +94,28 @@ Proof.
   exists 1; intros t Ht; unfold w; rewrite exp_ln by lra; reflexivity.
 Qed.
 
+(** A periodic, continuous function is bounded. *)
+Lemma periodic_bounded F T : 0 < T -> (forall t, 0 <= t -> F (T + t) = F t) ->
+  continuous_in_time F -> exists B, 0 < B /\ forall t, 0 <= t -> Rabs (F t) <= B.
+Proof.
+  intros HT Hp Hc.
+  destruct (continuity_ab_maj (fun x => Rabs (F (Rabs x))) 0 T) as [top [Ht _]]; [lra | |].
+  { intros x _; apply continuity_pt_filterlim.
+    apply (continuous_comp (fun x => F (Rabs x)) Rabs); [apply Hc | apply continuous_Rabs]. }
+  set (B := Rabs (F (Rabs top))) in *.
+  assert (N : forall n t, 0 <= t <= INR (Datatypes.S n) * T -> Rabs (F t) <= B).
+  { assert (I : forall t, 0 <= t <= T -> Rabs (F t) <= B).
+    { intros t Hn; specialize (Ht t Hn); rewrite (Rabs_pos_eq t) in Ht; tauto. }
+    induction n as [| n IH]; intros t Hn; [apply I; simpl in Hn; lra |].
+    destruct (Rle_lt_dec t T) as [Hle | Hlt]; [apply I; lra |]; rewrite S_INR in Hn.
+    replace t with (T + (t - T)) by ring; rewrite Hp by lra; apply IH; lra. }
+  exists (B + 1); split; [unfold B; pose proof (Rabs_pos (F (Rabs top))); lra |].
+  intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
+  { apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat, HT]. }
+  apply Rle_trans with B; [| lra].
+  apply (N n); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
+Qed.
+
 (** A periodic, continuous function with integral 0 over a period has a bounded integral. *)
 Lemma periodic_integral a T : 0 < T -> (forall t, 0 <= t -> a (T + t) = a t) ->
   (forall t, continuous a t) -> RInt a 0 T = 0 ->
@@ -110,17 +132,10 @@ Proof.
     rewrite <- L; apply RInt_ext; intros x Hx; unfold scal; simpl; unfold mult; simpl.
     rewrite !Rmult_1_l, Rplus_comm; apply Hp.
     revert Hx; unfold Rmin; destruct (Rle_dec 0 t); lra. }
-  destruct (continuity_ab_maj (fun x => Rabs (RInt a 0 x)) 0 T) as [top [Ht _]]; [lra | |].
-  { intros x _; apply continuity_pt_filterlim, continuous_comp; [| apply continuous_Rabs].
-    apply (ex_derive_continuous (fun x => RInt a 0 x)); eexists; apply derive_integral, Hc. }
-  exists (Rabs (RInt a 0 top)).
-  assert (N : forall n t, 0 <= t <= INR (Datatypes.S n) * T -> Rabs (RInt a 0 t) <= Rabs (RInt a 0 top)).
-  { induction n as [| n IH]; intros t Hn; [apply Ht; simpl in Hn; lra |].
-    destruct (Rle_lt_dec t T) as [Hle | Hlt]; [apply Ht; lra |]; rewrite S_INR in Hn.
-    replace t with (t - T + T) by ring; rewrite S by lra; apply IH; lra. }
-  intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
-  { apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat, HT]. }
-  apply (N n); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
+  destruct (periodic_bounded (fun t => RInt a 0 t) T) as [B [_ HB]]; [assumption | | |].
+  - intros t Ht; rewrite Rplus_comm; apply S, Ht.
+  - apply smooth_in_time; intros t _; eexists; apply derive_integral, Hc.
+  - exists B; exact HB.
 Qed.
 
 (** [t (u' - r) - c0 - c1 U -> 0] with periodic, continuous U of mean m:

@@ -49,9 +49,9 @@ Proof.
   pose proof (pow2_ge_0 y); pose proof (pow2_gt_0 z Hz); lra.
 Qed.
 
-(** The order of increasing functions decides a threshold. *)
-Lemma threshold (F : R -> R) (x s e : R) : (forall a b, 0 < a -> a < b -> F a < F b) ->
-  0 < x -> 0 < s -> F s = e -> s < x <-> e < F x.
+(** The order of functions that increase on D decides a threshold. *)
+Lemma threshold (D : R -> Prop) (F : R -> R) (x s e : R) :
+  (forall a b, D a -> a < b -> F a < F b) -> D x -> D s -> F s = e -> s < x <-> e < F x.
 Proof.
   intros HF Hx Hs <-; split; intro H; [auto |].
   destruct (Rtotal_order s x) as [? | [-> | L]]; [assumption | lra | specialize (HF x s Hx L); lra].
@@ -315,9 +315,13 @@ Ltac increasing :=
   match goal with
   | |- / _ < / _ => apply Rinv_lt_contravar; [positive | increasing]
   | |- exp _ < exp _ => apply exp_increasing; increasing
+  | |- tanh _ < tanh _ => apply tanh_increasing; increasing
   | |- ?c + _ < ?c + _ => apply Rplus_lt_compat_l; increasing
   | |- _ + ?c < _ + ?c => apply Rplus_lt_compat_r; increasing
-  | |- _ / _ < _ / _ => apply Rmult_lt_compat_l; [positive | increasing]
+  | |- ?c - _ < ?c - _ => apply Rplus_lt_compat_l, Ropp_lt_contravar; increasing
+  | |- ?c * _ < ?c * _ => apply Rmult_lt_compat_l; [positive | increasing]
+  | |- ?c / _ < ?c / _ => apply Rmult_lt_compat_l; [positive | increasing]
+  | |- _ / ?c < _ / ?c => apply Rmult_lt_compat_r; [apply Rinv_0_lt_compat; positive | increasing]
   | |- _ => assumption
   end.
 

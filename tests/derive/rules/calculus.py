@@ -358,12 +358,21 @@ FAMILIES = (
         "beyond its bound": ("<= 1", 1 + sp.tanh(y), theta, q, sp.S.One),
         "a logarithm of a root": (">= 0", sp.exp(sp.sqrt(y)), q, M, M),
     }),
-    Family(exceeds, ((f_c**2, epsilon**2, epsilon), (2 * f_c, epsilon, epsilon / 2)), {
+    Family(exceeds, ((f_c**2, epsilon**2, epsilon), (f_c**2 + q, epsilon**2 + q, epsilon)), {
         "strict if and only if not": ("strict on both", 2 * f_c, epsilon, epsilon / 2, sp.Ge),
         "both at once": ("an equivalence", 2 * f_c, epsilon, epsilon / 2, sp.Gt, sp.And),
         "across a pole": ("Ne", 1 / (f_c - 1), epsilon, 1 + 1 / epsilon),
         "a threshold of either sign": ("b_0 > 0", 2 * f_c, 2 * b_0, b_0),
         "what decreases": ("increases with", -2 * f_c, -2 * q, q),
         "another level": ("the left side is", 2 * f_c, q, q),
+    }),
+    Family(lambda function, point, *known: Threshold(
+        sp.Equivalent(sp.Gt(function, q), sp.Gt(u_c, point)), u_c)(*known), (
+        (2 * u_c, q / 2), (u_c * h_0 + q, 0, gt(h_0, 0)),
+    ), {
+        # u_c = q + C (t - T)
+        "a wear and its rate": ("Derivative", u_c + T * du, q),
+        "a wear times what may be negative": ("increases with", u_c * G, q / G, ne(G, 0)),
+        "a square": ("increases with", u_c**2 / q, q),  # u_c = -2 q
     }),
 )  # fmt: skip

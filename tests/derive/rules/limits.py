@@ -8,7 +8,7 @@ from derive.hypotheses import CONTINUOUS, PERIODIC
 from derive.reals import LAW
 from derive.rules.assumption import assume, defined
 from derive.rules.drift import LeadingTerm
-from derive.rules.growth import AtInfinity, Diverges, intermittent, unbounded
+from derive.rules.growth import AtInfinity, Diverges, intermittent, periodic_bound, unbounded
 from derive.rules.inequalities import Arithmetic
 from derive.rules.limits import (
     Passes,
@@ -33,6 +33,7 @@ from tests.derive.judgements import (
     given,
     gt,
     le,
+    lt,
     ne,
     tends,
 )
@@ -60,6 +61,7 @@ ROUGH, WORN = Arithmetic(sp.Gt(sigma, 0, evaluate=False))(), gt(u_c, 0)
 STEP = sp.Piecewise((1, sp.Gt(G, 0)), (0, True))
 WITH_G = C * (2 + sp.tanh(G * q / (u_c**2 + q**2)))
 AT_LAST = Diverges(t)(Arithmetic(sp.Ge(t, t, evaluate=False))())
+LOADED = BOUNDED, assume(PERIODIC), assume(CONTINUOUS)
 BENDING = C / (1 + u_c**2 / h_star**2)
 
 
@@ -209,6 +211,18 @@ FAMILIES = (
         # h_0 + C T
         "u_c - C t, one period later": ("the limit of all", later(u_c) - C * t, h_0,
             tends(u_c - C * t, h_0)),
+    }),
+    Family(lambda claim, *facts: periodic_bound(Arithmetic(claim)(*facts)), (
+        (sp.Lt(U_a, 2 * q), *LOADED, lt(U_a, q)),
+    ), {
+        "a bound of a load that is no more than periodic": ("continuous load", sp.Gt(G, 0),
+            gt(G, q), *LOADED[:2]),
+        "a bound of a load that is continuous": ("load of period T", sp.Gt(G, 0),
+            gt(G, q), *LOADED[::2]),
+        "no bound": ("bounded by U", sp.Gt(G, 0), gt(G, q), *LOADED[1:]),
+        "a claim about the bound": ("said of U", sp.Le(U_a, U), *LOADED),  # U_a = 2 U
+        # U_a = h_0 = U/2
+        "a bound of which more is said": ("said of U", sp.Lt(U_a, h_0), *LOADED, lt(U, h_0)),
     }),
     Family(accumulates, (tends(du, 0), tends(du, C * b_0)), {
         "a limit that is only bounded": ("is no limit", ge(forever(du), C)),  # u_c = 2 C t
