@@ -48,7 +48,9 @@ def _expressions(expr: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
             yield "missing term", expr.xreplace({node: sp.Add(*rest)})
             break
     powers = [n for n in sp.postorder_traversal(expr) if isinstance(n, sp.Pow)]
+    rates = sorted(expr.atoms(sp.Derivative), key=str)
     symbols = [n for n in sp.postorder_traversal(expr) if isinstance(n, (sp.Symbol, AppliedUndef))]
+    symbols = rates or symbols
     if powers:
         base, exponent = powers[0].args
         yield "exponent", expr.xreplace({powers[0]: base ** (exponent + 1)})
