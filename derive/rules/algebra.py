@@ -15,7 +15,7 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
-from .proving import lasts, require, require_defined, smooth
+from .proving import coefficients, lasts, require, require_defined
 from .reading import equality, replaced
 
 
@@ -60,17 +60,15 @@ class Solve(Rule):
     premise_names = ("the equation",)
 
     def conclude(self, *premises: Judgement) -> Conclusion:
-        given, x = equality(premises[0]), sp.Dummy(real=True)
-        residual = given.lhs - given.rhs
-        inner = residual.atoms(sp.Derivative, sp.Integral, sp.Limit, sp.Subs) - {self.unknown}
-        residual = residual.xreplace({self.unknown: x})
-        slope = sp.diff(residual, x)
-        if any(part.has(self.unknown) for part in inner) or slope.has(x) or not smooth(residual, x):
+        given = equality(premises[0])
+        parts = coefficients(given.lhs - given.rhs, self.unknown)
+        if parts is None:
             raise RuleError(f"missing premise: {given.relation} is linear in {self.unknown}")
+        slope, rest = parts
         require(sp.Ne(slope, 0), *premises)
         value = given.rhs
         if given.lhs != self.unknown or value.has(self.unknown):
-            value = -residual.xreplace({x: sp.S.Zero}) / slope
+            value = -rest / slope
         return Conclusion(Equality(self.unknown, value))
 
 

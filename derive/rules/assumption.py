@@ -16,7 +16,15 @@ from ..symbols import DATA, EXTREMES, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
-from .proving import in_words, is_contact_law, lasting_facts, lasts, smooth, undefined
+from .proving import (
+    coefficients,
+    in_words,
+    is_contact_law,
+    lasting_facts,
+    lasts,
+    smooth,
+    undefined,
+)
 from .reading import at_an_instant, clocks, constant, fields, functions
 
 _HIDDEN = (Kind.MODEL, Kind.INITIAL, Kind.DEFINITION)
@@ -128,9 +136,8 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
     if len(new) != 1 or not constant(whole) or functions(whole):
         return None
     (name,) = new
-    slope = sp.diff(whole, name)
-    linear = smooth(whole, name) and not slope.has(name)
-    return (name, -whole.subs(name, 0) / slope) if linear else None
+    parts = coefficients(whole, name)
+    return (name, -parts[1] / parts[0]) if parts else None
 
 
 def _solvable(relation: sp.Equality) -> sp.Tuple | None:
@@ -149,21 +156,19 @@ def _solvable(relation: sp.Equality) -> sp.Tuple | None:
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     parts = (*rates, *fields - {d.expr for d in rates})
     own = {part: sp.Dummy(real=True) for part in parts}
-    flat = whole.xreplace(own)
-    slopes = {part: sp.diff(flat, name) for part, name in own.items()}
-    bent = any(slope.has(*own.values()) for slope in slopes.values())
-    if not own or bent or not smooth(flat, *own.values()):
+    found = coefficients(whole, *parts)
+    if not parts or found is None:
         return None
-    rests = not any(part.is_positive for part in own)
-    if rests and flat.xreplace(dict.fromkeys(own.values(), sp.S.Zero)) == 0:
+    *slopes, rest = found
+    if rest == 0 and not any(part.is_positive for part in parts):
         return sides.xreplace(own)
-    heads = [part.func for part in own]
+    heads = [part.func for part in parts]
     solved = any(
         slope.is_nonzero
         and not part.is_nonnegative
         and heads.count(part.func) == 1
         and part.args in _AT_EVERY_TIME
-        for part, slope in slopes.items()
+        for part, slope in zip(parts, slopes, strict=True)
     )
     return sides.xreplace(own) if solved and not tends and not rates else None
 

@@ -25,7 +25,7 @@ from ..reals import LAW, holds
 from ..symbols import symbol, t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import continuity, continuous, facts_of, require, require_defined
+from .proving import coefficients, continuity, continuous, facts_of, require, require_defined
 from .reading import (
     T,
     constant,
@@ -264,11 +264,10 @@ class Intermittent(Rule):
         if not isinstance(contact, Relational) or [e for e, _ in rest] != [0]:
             raise RuleError("missing premise: a rate that is 0 out of contact")
         room = sp.expand(contact.gts - contact.lts)
-        level = room.subs(LOAD, 0)
-        slope = sp.cancel((room - level) / LOAD)
+        parts = coefficients(room, LOAD) or (sp.S.Zero, t)
         if (
-            not constant(sp.Tuple(level, slope))
-            or slope == 0
+            not constant(sp.Tuple(*parts))
+            or parts[0] == 0
             or not isinstance(contact, (sp.Le, sp.Ge))
         ):
             raise RuleError("missing premise: contact depends on the load alone")
