@@ -228,8 +228,9 @@ def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
     _require_language(made.claim.relation, *hypotheses)
-    _require_names(hypotheses)
-    _require_model(hypotheses)
+    if not any({*hypotheses} <= {*premise.hypotheses} for premise in premises):
+        _require_names(hypotheses)
+        _require_model(hypotheses)
     return hypotheses, made.claim
 
 
@@ -313,6 +314,8 @@ def _growing(order: sp.Basic) -> sp.Expr | None:
     if order.func not in _WEAK:
         return None
     grown, speed = order.args if isinstance(order, sp.Eq) else (order.gts, order.lts)
+    if speed.atoms(AppliedUndef):
+        return None
     if isinstance(grown, sp.Derivative) and grown.variables == (t,):
         grown = grown.expr
     else:
