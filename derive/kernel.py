@@ -19,6 +19,7 @@ References
 
 from __future__ import annotations
 
+import operator
 import re
 import sys
 from abc import ABC, abstractmethod
@@ -26,6 +27,7 @@ from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
 from functools import cache
 from typing import ClassVar, dataclass_transform
+from weakref import WeakKeyDictionary
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -129,6 +131,20 @@ class Judgement:
     def __post_init__(self, token: object) -> None:
         if token is not _TOKEN:
             raise TypeError("only a rule makes a judgement")
+        _MADE[self] = self._held
+
+    def __init_subclass__(cls) -> None:
+        raise TypeError("only a rule makes a judgement")
+
+    @property
+    def _held(self) -> tuple[object, ...]:
+        return self.hypotheses, self.claim, self.rule, self.parents
+
+    @property
+    def is_made(self) -> bool:
+        """Return whether a rule made it, and it still holds what it held then."""
+        known = _MADE.get(self)
+        return known is not None and all(map(operator.is_, known, self._held))
 
     @property
     def relation(self) -> sp.Basic:
@@ -152,6 +168,10 @@ class Judgement:
             self.hypotheses, self.claim, self.rule, self.parents, name, remark or self.remark,
             _TOKEN,
         )  # fmt: skip
+
+
+_MADE: WeakKeyDictionary[Judgement, tuple[object, ...]] = WeakKeyDictionary()
+"""What each judgement held when a rule made it."""
 
 
 @cache
@@ -189,8 +209,8 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
         raise RuleError(f"{kind.__name__} is no rule of {_RULES[:-1]}")
     if set(vars(rule)) != {field.name for field in fields(rule)}:  # type: ignore[arg-type]
         raise RuleError(f"{kind.__name__} has fields that are not its own")
-    if any(type(premise) is not Judgement for premise in premises):
-        raise RuleError("missing premise: a judgement")
+    if not all(type(premise) is Judgement and premise.is_made for premise in premises):
+        raise RuleError("missing premise: a judgement that a rule made")
     if len(premises) < len(rule.premise_names):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.premise_names)}")
     _require_language(*vars(rule).values())
@@ -208,11 +228,13 @@ _CONCLUSIONS: dict[Hashable, tuple[tuple[Hypothesis, ...], Claim, object]] = {}
 
 
 def _content(node: object) -> object:
-    """Return the parts of an object, down to its leaves, which are immutable."""
+    """Return the parts of an object, down to the names and numbers of its leaves."""
     if isinstance(node, (Claim, Hypothesis)):
         return type(node), *map(_content, vars(node).values())
     parts = node if isinstance(node, tuple) else getattr(node, "args", ())
-    return (type(node), *map(_content, parts)) if parts else node
+    if parts:
+        return type(node), type(node).__name__, *map(_content, parts)
+    return node, *(getattr(node, part, "") for part in ("name", "p", "q"))
 
 
 def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
@@ -377,30 +399,24 @@ def _require_language(*parts: object) -> None:
 
 def replay_fault(judgement: Judgement) -> str | None:
     """Return why the rule does not give this judgement again from its parents, None if it does."""
-    if type(judgement) is not Judgement:
-        return "it is no judgement"
-    if {type(judgement.hypotheses), type(judgement.parents)} != {tuple}:
-        return "its hypotheses or parents are no tuple"
+    if type(judgement) is not Judgement or not judgement.is_made:
+        return "no rule made it"
     try:
-        chain(judgement)
         _require_language(judgement.claim.relation, *judgement.hypotheses)
-        hypotheses, claim = _apply(judgement.rule, judgement.parents)
+        made = _apply(judgement.rule, judgement.parents)
     except (ValueError, TypeError, AttributeError) as refusal:
         return str(refusal) or type(refusal).__name__
-    if _content(claim) != _content(judgement.claim):
-        return f"the rule gives {claim.relation}"
-    return (
-        None if hypotheses == judgement.hypotheses else "its hypotheses are not those of the rule"
-    )
+    shown = judgement.hypotheses, judgement.claim
+    return None if _content(made) == _content(shown) else f"the rule gives {made[1].relation}"
 
 
-StepKey = tuple[Rule, tuple[Hypothesis, ...], Claim, tuple[Hashable, ...]]
+StepKey = tuple[Rule, tuple[Hypothesis, ...], Claim, tuple[Hashable, ...], bool]
 
 
 def step_key(step: Judgement) -> StepKey:
-    """Return a key that equal steps share."""
+    """Return a key that equal steps share, but none that a rule made with another."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
-    return (step.rule, step.hypotheses, step.claim, parents)
+    return (step.rule, step.hypotheses, step.claim, parents, step.is_made)
 
 
 def chain(*judgements: Judgement) -> tuple[Judgement, ...]:

@@ -92,7 +92,8 @@ def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
     if isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1:
-        return _fault_of_name(node, kind.__name__)
+        own = vars(node).keys() - {"nargs"}
+        return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
     if kind in (sp.Symbol, sp.Dummy):
         return _fault_of_name(node, node.name)
     if kind not in _HEADS:
@@ -164,15 +165,18 @@ def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
 
 
 def _plain(function: type) -> bool:
-    """Return whether an unspecified function has no method of its own."""
-    plain = sp.Function(function.__name__, **function._kwargs)  # type: ignore[attr-defined]
-    return function.__bases__ == (AppliedUndef,) and vars(function).keys() <= vars(plain).keys()
+    """Return whether an unspecified function has no method and no sign of its own."""
+    plain = vars(sp.Function(function.__name__, **function._kwargs))  # type: ignore[attr-defined]
+    own = vars(function)
+    signs = (name for name in own if name.startswith("is_"))
+    unchanged = own.keys() <= plain.keys() and all(own[sign] == plain[sign] for sign in signs)
+    return function.__bases__ == (AppliedUndef,) and unchanged
 
 
 def _fault_of_name(node: sp.Expr, name: str) -> str | None:
     if name in QUANTITIES:
         known = symbol(name)
-        same = node.func == known.func if node.args else node == known
+        same = node.func is known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
     fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.func._kwargs in _RANGES
     known = name in _WORDS and node.func not in _FUNCTIONS

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Iterator
+from copy import copy
 
 import pytest
 import sympy as sp
@@ -10,15 +11,16 @@ from derive.check import step_checks
 from derive.claims import Equality, Inequality
 from derive.equations import Equation
 from derive.hypotheses import PERIODIC, ROUGHENING, Hypothesis
-from derive.kernel import Conclusion, Judgement, Rule, RuleError, infer, replay_fault
+from derive.kernel import Conclusion, Judgement, Rule, RuleError, chain, infer, replay_fault
 from derive.rules.algebra import Insert, substitute
 from derive.rules.assumption import Assume, assume
 from derive.rules.calculus import rigid
 from derive.rules.data import DataDerivative
 from derive.rules.inequalities import Arithmetic, Monotone
 from derive.rules.limits import Passes
-from derive.symbols import rate, symbols
+from derive.symbols import rate, symbols, t
 from derive.time_limit import TimeLimitError, time_limit
+from derive.verification import verification_of
 from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, supposed, tends
 from tests.derive.test_language import Positive
 
@@ -131,7 +133,7 @@ def test_what_is_forged_is_refused(forged: Callable[[], object], said: str) -> N
 
 
 def test_a_look_alike_is_found() -> None:
-    assert replay_fault(Forged()) == "it is no judgement"  # type: ignore[arg-type]
+    assert replay_fault(Forged()) == "no rule made it"  # type: ignore[arg-type]
 
 
 class Hiding(tuple):  # type: ignore[type-arg]
@@ -172,7 +174,55 @@ def test_a_judgement_that_rests_on_itself_is_found() -> None:
     made = Arithmetic(sp.Gt(f_c, 0))(ROUGHENS)
     object.__setattr__(made, "hypotheses", ())
     object.__setattr__(made, "parents", (made,))
-    assert replay_fault(made) == "f_c > 0 rests on itself"
+    assert replay_fault(made) == "no rule made it"
+    with pytest.raises(RuleError, match="f_c > 0 rests on itself"):
+        chain(made)
+
+
+class Odd(Inequality):
+    """A claim that says it is any other."""
+
+    def __eq__(self, other: object) -> bool:
+        return True
+
+    def __hash__(self) -> int:
+        return hash(ge(h_0, L).claim)
+
+
+def swapped() -> Judgement:
+    """Return a copy of a judgement, with another claim that calls itself equal."""
+    made = copy(ge(h_0, L))
+    object.__setattr__(made, "claim", Odd(sp.Ge(h_0, 100 * L)))
+    return made
+
+
+def test_what_was_copied_or_swapped_is_no_premise() -> None:
+    """Otherwise what is concluded from it would be kept as the conclusion from the other."""
+    for forged in (copy(ge(h_0, L)), swapped()):
+        assert replay_fault(forged) == "no rule made it"
+        with pytest.raises(RuleError, match="a judgement that a rule made"):
+            Arithmetic(sp.Ge(h_0, 50 * L))(forged)
+
+
+def test_a_swapped_step_is_not_taken_for_the_one_that_was_checked() -> None:
+    honest, forged = (Equation("13", "2", "any", (made,)) for made in (ge(h_0, L), swapped()))
+    assert verification_of([honest]).passed
+    assert not verification_of([honest, forged]).passed
+
+
+def test_there_are_no_other_judgements() -> None:
+    with pytest.raises(TypeError, match="only a rule"):
+        type("Other", (Judgement,), {})
+
+
+@pytest.mark.parametrize("sign", ["class", "instance"])
+def test_a_function_with_signs_of_its_own_is_refused(sign: str) -> None:
+    function = sp.Function("G", real=True)
+    owner = function if sign == "class" else function(t)
+    owner.is_negative = True
+    claim = sp.Lt(function(t) if sign == "class" else owner, 0, evaluate=False)
+    with pytest.raises(RuleError, match="no claim"):
+        Arithmetic(claim)()
 
 
 def test_a_claim_that_is_changed_after_its_check_is_found() -> None:
