@@ -39,3 +39,16 @@ def test_the_map_names_equations_that_exist():
     for row in REGIMES:
         for identifier in row.equations:
             assert catalogue.equation(identifier).id == identifier
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "said"),
+    [(2.0**-11, "just reaches h = 3 sigma"), (2.0**-12, "never makes contact")],
+)
+def test_a_peak_that_just_touches_is_told_apart(amplitude, said):
+    sigma = 2.0**-10
+    load = Sine(amplitude, 0.06)
+    scene = made(f_c=0.5, load=load, closure=3 * sigma + 2.0**-11, roughness=sigma, cutoff=True)
+    found = asymptote(scene)
+    assert found.regime == "arrest"
+    assert said in found.notices[-1]
