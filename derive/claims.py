@@ -60,6 +60,13 @@ class Continuous(Predicate):
         return rf"{printer.doprint(self.args[0])}\;\text{{is continuous}}"
 
 
+class HasValue(Predicate):
+    """An expression has a value, which no relation expresses; ``HasValue(expr)``."""
+
+    def _sympystr(self, printer: sp.printing.printer.Printer) -> str:
+        return f"{printer.doprint(self.args[0])} has a value"
+
+
 class SlowEquation(Predicate):
     """m is the roughness without its oscillation, in the sense of ``Term``, where s_0 is the
     constant of integration; ``SlowEquation(m, s_0)``."""

@@ -27,7 +27,16 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Term, landau_o
+from .claims import (
+    Continuous,
+    Drift,
+    FirstZero,
+    HasValue,
+    Oscillation,
+    SlowEquation,
+    Term,
+    landau_o,
+)
 from .laws import GENERAL
 from .note.model import FIELDS, WEARING
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
@@ -117,6 +126,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} is no coefficient at the phase tau and the pace rho"
     if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
         return f"{node} has no two ends"
+    if kind is sp.Integral and node.has(sp.Piecewise) and node.is_zero is False:
+        return f"{node} may be zero, which SymPy denies"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
         return f"{node.rhs} cannot be a limit: it varies"
     numbers = all(isinstance(side, sp.Expr) for side in node.args) and not node.has(sp.Lambda)
@@ -256,7 +267,7 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the condition for an expression to be defined if its arguments are."""
     if expr in (sp.zoo, sp.nan):
         return (sp.false,)
-    unknown = sp.Ne(expr, sp.zoo, evaluate=False)
+    unknown = HasValue(expr)
     if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
         return (unknown,)
     if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:

@@ -24,6 +24,7 @@ import z3
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from .claims import HasValue
 from .language import certain, implied_by, is_slope_of_law
 from .laws import GENERAL
 
@@ -95,7 +96,7 @@ _text = cache(str)
 @cache
 def _supposed(fact: sp.Basic) -> frozenset[sp.Basic]:
     """Return what holds wherever a fact is defined."""
-    parts = () if fact.has(sp.zoo) else certain(fact)
+    parts = () if fact.has(HasValue) else certain(fact)
     return frozenset(relation for part in parts for relation in implied_by(part))
 
 

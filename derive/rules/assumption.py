@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import sympy as sp
 
-from ..claims import Equality, Limit, Oscillation, Property, Term, claim_of, landau_o
+from ..claims import Equality, HasValue, Limit, Oscillation, Property, Term, claim_of, landau_o
 from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..language import defined_by
@@ -106,7 +106,7 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
         if not holds(above(known, 0), facts):
             goals.append(above(value, 0, evaluate=False))
     for goal in goals:
-        if goal == sp.false or goal.has(sp.zoo, sp.Dummy):
+        if goal == sp.false or goal.has(HasValue, sp.Dummy):
             raise RuleError(f"missing premise: {in_words(goal)}")
     return tuple(map(Hypothesis, goals))
 

@@ -48,6 +48,8 @@ def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Ex
 
     RuleError unless it is smooth at infinity and tends to a constant that is not zero.
     """
+    if not constant(law.xreplace({part: sp.Dummy() for part in (tau, *fields(law))})):
+        raise RuleError(f"missing premise: {law} has no rate, integral or limit")
     small = sp.Dummy("1/sigma", positive=True)
     power, inverse = expanded(law.subs(ROUGHNESS, 1 / small), small)
     if power or not continuous(inverse, {small: sp.S.Zero}, *premises):
@@ -156,7 +158,7 @@ class Averaging(Rule):
         whole = law.lhs.args[0] if of_wave else law.lhs
         if whole not in waves or value.has(*waves):
             raise RuleError(f"missing premise: {law.relation} is of an oscillation")
-        require_defined(value, *premises)
+        require_defined(self.claim, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
         if not _periodic(rest.xreplace(waves)):
             raise RuleError(f"missing premise: {rest} has the period 1")

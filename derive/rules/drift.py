@@ -155,7 +155,7 @@ class LeadingTerm(Rule):
         given, (left, leading) = equality(premises[0]), self.claim.args
         s = next(iter(fields(given.rhs)), t)
         pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else t
-        require_defined(leading, *premises)
+        require_defined(sp.Tuple(*left.args, leading), *premises)
         small = sp.Dummy("s", positive=True)
         worn, cycles = (e.xreplace({s: small}) for e in (leading, given.rhs / pace))
         slope, claimed = sp.diff(cycles, small), sp.diff(worn, small)

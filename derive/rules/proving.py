@@ -23,7 +23,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from ..claims import Asymptotic, Continuous, FirstZero, Limit, Property, Term
+from ..claims import Asymptotic, Continuous, FirstZero, HasValue, Limit, Property, Term
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
 from ..language import bound, certain, implied_by, needs
@@ -176,10 +176,8 @@ def require_defined(
 
 
 def in_words(goal: sp.Basic) -> str:
-    """Return a relation as text; one that states the existence of a value, in words."""
-    if goal == sp.false:
-        return "every part has a value"
-    return f"{goal.args[0]} has a value" if goal.has(sp.zoo) else str(goal)
+    """Return a missing relation in words."""
+    return "every part has a value" if goal == sp.false else str(goal)
 
 
 def undefined(
@@ -232,7 +230,7 @@ def _between(
     parts = (part for fact in facts for part in sp.And.make_args(fact))
     about = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
     shifted = (fact.xreplace({last: s}) for fact in about)
-    return [fact for fact in shifted if constant(fact) and not fact.has(sp.zoo)]
+    return [fact for fact in shifted if constant(fact) and not fact.has(HasValue)]
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
@@ -247,7 +245,7 @@ def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
         goals = [] if now in WEARING else [Continuous(now)]
         return [*goals, *integrable(body.args[0], s)]
     if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
-        return [sp.Ne(body, sp.zoo, evaluate=False)]
+        return [HasValue(body)]
     return [goal for part in body.args for goal in integrable(part, s)]
 
 

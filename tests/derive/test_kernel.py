@@ -217,7 +217,7 @@ def test_there_are_no_other_judgements() -> None:
 
 @pytest.mark.parametrize("sign", ["class", "instance"])
 def test_a_function_with_signs_of_its_own_is_refused(sign: str) -> None:
-    function = sp.Function("G", real=True)
+    function = sp.Function("w", positive=True)
     owner = function if sign == "class" else function(t)
     owner.is_negative = True
     claim = sp.Lt(function(t) if sign == "class" else owner, 0, evaluate=False)

@@ -124,6 +124,8 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
     (sp.Function("u_c", real=True)(t, x), "of no kind"),
     (sp.Derivative(u_c, f_c), "fixed"),
+    # 0
+    (sp.Integral(sp.Piecewise((1, x < 0), (-1, True)), (x, -1, 1)), "may be zero"),
     (sp.Derivative(h, T), "fixed"),  # one period later, T is captured
     (sp.Derivative(h, u_c), "by no variable"),
     (sp.Integral(u_c, (f_c, 0, 1)), "fixed"),

@@ -148,6 +148,9 @@ FAMILIES = (
         "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
             given(theta > 0)),
         "a piece without the others": ("f_c > 0", sp.Piecewise((1, f_c > 0))),  # f_c = -1
+        # L = 2, h_0 = 0, u_a = 1
+        "an integral over time of two pieces": ("has a value",
+            sp.Integral(sp.Piecewise((1, u_a > L), (0, u_a < h_0)), (t, 0, T))),
     }),
     Family(lambda claim, *known: Arithmetic(claim)(*known), (
         (equal(G, q), IN_PIECES, le(h, L)), (equal(G, 0), IN_PIECES, gt(h, L)),

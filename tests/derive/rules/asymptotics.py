@@ -30,6 +30,7 @@ from tests.derive.judgements import (
     GAP,
     RATE,
     ROUGHENS,
+    SLOPE,
     SPEED,
     Family,
     averaged_as,
@@ -57,6 +58,7 @@ du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
+LOG_F = sp.log(f_c - 1)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
 SWAYING, PACE = 2 + L * sp.sin(2 * sp.pi * tau) / ROUGHNESS, (ROUGHNESS, tau, rho)
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
@@ -181,6 +183,7 @@ FAMILIES = (
         # q ln(h_star/sigma_c) -> oo
         "a constant for the logarithm": ("is about", FEW, q),
         "a field beside it": ("is about", FEW + G**2),
+        "the logarithm of 0/0": ("Ne", FEW, sp.log(N + N * GAP)),
         # G = h_star/sigma_c + 1: N = theta - 1
         "a field in the equation": ("is about", FEW, LOG_N, FALLS, G),
         "time in the equation": ("is about", FEW, LOG_N, FALLS, t / T),
@@ -206,6 +209,9 @@ FAMILIES = (
             sp.Eq(w_1, FIRST_WAVE + U * rho * sp.exp(-theta)), "c_1", averaged_as(FIRST_DRIFT)),
         # R L is whatever it is
         "an area that is an oscillation": ("by the mean", sp.Eq(R * L, FIRST_WAVE)),
+        "a drift beside 0/0": ("Ne", equal(c_1 + GAP, FIRST_DRIFT)),
+        "a drift beside the logarithm of any number": ("f_c", equal(
+            c_1 + LOG_F - LOG_F * (f_c + 1) / f_c + LOG_F / f_c, FIRST_DRIFT)),
         "a drift that is 0/0 for f_c = 1": ("f_c - 1",
             sp.Eq(c_1, FIRST_DRIFT + (f_c**2 - 1) / (f_c - 1) - f_c - 1)),
     }),
@@ -216,6 +222,9 @@ FAMILIES = (
     Family(averaged, (1 + q,), {
         "a limit that varies with the load": ("is the limit of", 1 + U_a / (2 * U)),
         "a pressure that vanishes": ("smooth at infinity", 1 / (1 + u_c**2 / q**2)),
+        "a pressure with the slope of a name": ("no rate", 1 + SLOPE * L / (u_c + q)),
+        "a pressure with an integral": ("no rate",
+            1 + sp.Integral(1 / (1 + q**2 + sp.cos(z)), (z, 0, 2)) * L / (u_c + q)),
         "a pressure that varies with the phase": ("is the limit of",
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
