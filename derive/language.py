@@ -10,6 +10,7 @@ Key results
     defined_by    the names that a definition introduces
     meant_by      the names in their meaning
     bound         the variables that one node binds: of an integral, a limit, a derivative
+    guessed       whether SymPy may decide the sign of an integral without proof
     certain       the parts that are defined wherever the whole is
     needs         the conditions for an expression to be defined, if its arguments are
     implied_by    the relations that hold wherever an expression is defined
@@ -126,14 +127,25 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} is no coefficient at the phase tau and the pace rho"
     if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
         return f"{node} has no two ends"
-    if kind is sp.Integral and node.has(sp.Piecewise) and node.is_zero is False:
-        return f"{node} may be zero, which SymPy denies"
+    if kind is sp.Integral and guessed(node):
+        return f"{node} has a sign without proof"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
         return f"{node.rhs} cannot be a limit: it varies"
     numbers = all(isinstance(side, sp.Expr) for side in node.args) and not node.has(sp.Lambda)
     if isinstance(node, Relational) and not numbers:
         return f"{node} is no relation between numbers"
     return None
+
+
+def guessed(integral: sp.Integral) -> bool:
+    """Return whether SymPy may decide the sign of an integral without proof.
+
+    It evaluates one without free symbols by quadrature, and takes one for no zero if its integrand
+    is none, though that may be of both signs.
+    """
+    body = integral.function
+    signed = body.is_positive or body.is_negative
+    return bool(integral.is_number or (integral.is_zero is False and not signed))
 
 
 def _clocks(expr: sp.Expr) -> set[str]:

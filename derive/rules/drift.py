@@ -53,7 +53,8 @@ class FirstOrder(Rule):
         y, (u, rate) = sp.Dummy(real=True), rate_law(law)
         approach, x, steady = map(limit_in_time, (deviation, ratio, speed))
         function = in_terms_of(rate, x.expr, y)
-        if approach.value != 0 or steady.expr != sp.Derivative(u, t) or not constant(function):
+        known = steady.expr == sp.Derivative(u, t) and constant(sp.Tuple(function, x.value))
+        if approach.value != 0 or not known or not is_zero(function.subs(y, x.expr) - rate):
             raise RuleError("missing premise: the rate is a function of a ratio with that limit")
         first = sp.expand(u * (x.expr - x.value) - approach.expr)
         for field in fields(first):

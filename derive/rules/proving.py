@@ -8,6 +8,7 @@ Key results
     lasts                    whether a claim holds at every time, lasting_facts those that do
     require                  RuleError unless a relation follows from premises
     require_defined          RuleError unless every part of an expression has a value
+    require_integrands       the same, also for what it integrates
     undefined                the relations that are missing
     continuous               whether an expression is continuous at a point
     coefficients             the slopes and the rest of what is affine in some parts
@@ -26,7 +27,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from ..claims import Asymptotic, Continuous, FirstZero, HasValue, Limit, Property, Term
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
-from ..language import bound, certain, implied_by, needs
+from ..language import bound, bound_in, certain, implied_by, needs
 from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
@@ -173,6 +174,18 @@ def require_defined(
     """
     for goal in undefined(expr, *premises, near=near, always=always):
         raise RuleError(f"missing premise: {in_words(goal)}")
+
+
+def require_integrands(expr: sp.Expr, *premises: Judgement) -> None:
+    """Raise RuleError unless integrands have values everywhere between the ends, too.
+
+    That an integral has one, as a premise may say, does not tell it: the variables of integration
+    are renamed, so that it counts as unknown.
+    """
+    names = {x: sp.Dummy(**x.assumptions0) for x in bound_in(expr)}
+    if t in names:
+        raise RuleError(f"missing premise: {expr} has no integral over time")
+    require_defined(expr.xreplace(names), *premises)
 
 
 def in_words(goal: sp.Basic) -> str:

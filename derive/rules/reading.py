@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Claim, Conjunction, Drift, Equality, FirstZero, Inequality, Limit, Term
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, RuleError
-from ..language import bound
+from ..language import bound, guessed
 from ..reals import LAW
 from ..symbols import CLOCKS, symbol, t
 
@@ -153,6 +153,9 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
     taken = {v for node in touched for v in bound(node)}
     if not (clocks(old) | clocks(new)) - {t}:
         taken -= {t}
+    integrals = (node.subs(old, new) for node in binders if isinstance(node, sp.Integral))
+    if any(guessed(part) for node in integrals for part in node.atoms(sp.Integral)):
+        raise RuleError(f"missing premise: the sign of an integral for {old} = {new}")
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
         raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")

@@ -21,7 +21,16 @@ from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .proving import continuous, facts_of, lasting_facts, lasts, require, require_defined, smooth
+from .proving import (
+    continuous,
+    facts_of,
+    lasting_facts,
+    lasts,
+    require,
+    require_defined,
+    require_integrands,
+    smooth,
+)
 from .reading import (
     constant,
     equality,
@@ -83,7 +92,7 @@ class Separate(Rule):
         start, facts = y.subs(t, 0), facts_of(premises)
         if not {y, Continuous(y)} & {*WEARING, *facts} or known.get(start, start) != first:
             raise RuleError(f"missing premise: {start} = {first}, and {y} is continuous")
-        require_defined(self.claim, *premises)
+        require_integrands(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)
         rate, wear = (e.xreplace({y: moving, LOAD: load}) for e in (rate, wear))
         pace, factor = sp.cancel(self.claim.lhs / t), sp.cancel(self.claim.rhs / integral)
@@ -114,7 +123,7 @@ class ByParts(Rule):
         s, *ends = limits
         slope = sp.diff(self.primitive, s)
         between = (sp.Integral(part, limits) for part in (self.primitive, slope, self.rest))
-        require_defined(sp.Tuple(*between), *premises)
+        require_integrands(sp.Tuple(*between), *premises)
         if not smooth(self.primitive, s) or not is_zero(integral.function - slope - self.rest):
             raise RuleError(f"missing premise: {self.primitive} has the derivative of {given.rhs}")
         first, last = (self.primitive.subs(s, end) for end in ends)

@@ -109,7 +109,7 @@ def times(factor: sp.Expr, known: Judgement, *facts: Judgement) -> Judgement:
 
 
 def integral(body: sp.Expr, low: int = -1) -> Judgement:
-    return eq(G, sp.Integral(body, (theta, low, 2)))
+    return eq(G, sp.Integral(body, (theta, low * L, 2 * L)))
 
 
 def timed(

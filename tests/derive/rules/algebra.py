@@ -70,7 +70,7 @@ OVER_ZERO = equal((h - u_a) / (u_c - h_0), 1)
 
 
 def under(body):
-    return sp.Integral(body, (theta, 0, 1))
+    return sp.Integral(body, (theta, 0, L))
 
 
 def called(relation, kind):
@@ -101,7 +101,7 @@ FAMILIES = (
         "a variable of integration": ("every value", integral(theta), eq(theta, b_0)),
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
         # b_0 = 1/2, not 1/4, for x = h_0 = q = 1
-        "capture of a power by an integral": ("for every",
+        "capture of a power by an integral": ("for every|sign of",
             eq(b_0, q**2 + sp.Integral(q**4 * x, (x, 0, 1))), eq(q**2, x)),
         # G = u_c', but 0 at rational times
         "a rate under a second one": ("at every time",
@@ -136,7 +136,7 @@ FAMILIES = (
         "solved across a jump": ("linear in x_inf", x_inf, eq(KINKED, theta)),  # x_inf = -1/2
     }),
     Family(lambda factor, claim=SIDES, *known: times(factor, claim, *known), (
-        q, sp.Integral(1 / q, (q, 1, 2)),
+        q, sp.Integral(1 / q, (q, L, 2 * L)),
         u_stop, rate("u_c"), (sp.Integral(x / theta, (x, 1, 2)), SIDES, given(theta > 0)),
         sp.log(1 + q), (sp.Piecewise((1, f_c > 0)), SIDES, ROUGHENS), (1 / f_c, SIDES, ROUGHENS),
     ), {
@@ -145,8 +145,8 @@ FAMILIES = (
         "a primitive": ("two ends", sp.Integral(x, x)),
         "a factor that is no zero": ("has a value", FirstZero(y**2 + 1, y)),
         "a factor that is a rate": ("Derivative", rate("h")),  # h jumps
-        "1/theta over -1 to 1, for theta > 0": ("Ne", sp.Integral(1 / theta, (theta, -1, 1)), SIDES,
-            given(theta > 0)),
+        "1/theta over -1 to 1, for theta > 0": ("without proof",
+            sp.Integral(1 / theta, (theta, -1, 1)), SIDES, given(theta > 0)),
         "a piece without the others": ("f_c > 0", sp.Piecewise((1, f_c > 0))),  # f_c = -1
         # L = 2, h_0 = 0, u_a = 1
         "an integral over time of two pieces": ("has a value",

@@ -64,10 +64,22 @@ SWAYING, PACE = 2 + L * sp.sin(2 * sp.pi * tau) / ROUGHNESS, (ROUGHNESS, tau, rh
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
 
 
-def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY):
+def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY, ratio=RATIO, last=q):
     """Apply FirstOrder, with one thing wrong."""
-    limits = tends(u_c * (RATIO - q) - rest, end), tends(RATIO, q), tends(du, speed)
+    limits = tends(u_c * (ratio - last) - rest, end), tends(ratio, last), tends(du, speed)
     return first_order(eq(du, law), *limits, BOUNDED)
+
+
+def by_no_load():
+    """Return what FirstOrder has for a rate C + 1/(1 + U_a^2), and a ratio without U_a."""
+    return (
+        sp.S.Zero,
+        C + 1 / (1 + (U_a / q) ** 2),
+        0,
+        C,
+        h_0 + ((h_0 + L) ** 2 - h_0**2 - 2 * h_0 * L - L**2) * U_a / L,
+        h_0,
+    )
 
 
 def last(cycles=FEW, of=LOG_N, sign=FALLS, beside=theta):
@@ -151,6 +163,8 @@ FAMILIES = (
             sp.Piecewise((L * sp.sqrt(t / T), sp.Gt(U_a, 0)), (0, True))),
         "a deviation that stays": ("with that limit", U_a, LAW, sp.S.One),
         "a rate by another field": ("with that limit", U_a, LAW * (1 + G**2)),
+        # zero times U_a, a root of time
+        "a rate by a load that the ratio does not have": ("with that limit", *by_no_load()),
         "a law with a kink": ("differentiable at the limit", U_a, C * sp.Abs(RATIO), 0, C * q),
         "another rate": ("at the limit", U_a, LAW, 0, C),
         "a steady rate of either sign": ("f_c", U_a, f_c * LAW, 0, f_c * STEADY),
@@ -224,7 +238,7 @@ FAMILIES = (
         "a pressure that vanishes": ("smooth at infinity", 1 / (1 + u_c**2 / q**2)),
         "a pressure with the slope of a name": ("no rate", 1 + SLOPE * L / (u_c + q)),
         "a pressure with an integral": ("no rate",
-            1 + sp.Integral(1 / (1 + q**2 + sp.cos(z)), (z, 0, 2)) * L / (u_c + q)),
+            1 + sp.Integral(1 / (1 + q**2 + sp.cos(z)), (z, 0, b_0)) * L / (u_c + q)),
         "a pressure that varies with the phase": ("is the limit of",
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),

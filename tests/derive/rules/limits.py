@@ -200,8 +200,8 @@ FAMILIES = (
         "the limit of a sum of logarithms": ("continuous at", sp.log(G) + G, theta + sp.log(theta),
             tends(G, theta)),
         # b_0 = theta = 0: 1/2, not 0
-        "capture by an integral, in a limit": ("for every", G + sp.Integral(b_0, (theta, 0, 1)), q,
-            eq(b_0, theta), tends(G + sp.Integral(theta, (theta, 0, 1)), q)),
+        "capture by an integral, in a limit": ("for every", G + sp.Integral(b_0, (theta, 0, L)), q,
+            eq(b_0, theta), tends(G + sp.Integral(theta, (theta, 0, L)), q)),
         "a limit of -oo": ("is finite", 2 * G, -sp.oo, tends(G, -sp.oo)),
         # h_0 = L
         "a limit that passes, with 0/0": ("Ne", 2 * G, 2 * theta + GAP / L, tends(G, theta)),

@@ -35,12 +35,14 @@ from tests.derive.judgements import (
 
 u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
-p_max, theta, tau, u_stop, p_s, u_s = symbols("p_max theta tau u_stop p_s u_s")
+p_max, theta, x_inf, tau, u_stop = symbols("p_max theta x_inf tau u_stop")
+p_s, u_s = symbols("p_s u_s")
 x, z = sp.Symbol("x", positive=True), sp.Symbol("z", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
 
 SQUARE, TURNS = eq(G, u_c**2 / L**2), ne(rate("G"), 0)
+RESTS, JUMPS = 1 / (C * sp.sqrt(1 - u_s / L)), sp.tanh(1 / u_s)
 WORN = equal(t, sp.Integral(1 / C, (u_s, 0, u_c)))
 
 
@@ -104,6 +106,9 @@ FAMILIES = (
         # u_c = int C w
         "the time of a rate with w(tau)": (r"of u_c\(t\) alone", 1 / (C * w), C * w),
         "a rate of either sign": ("Ne", 1 / f_c, f_c),
+        # u_c = L from t = 2 L/C on, where G is 2 L/C
+        "a wear that may rest, where the integral has a value": ("L", RESTS,
+            1 / RESTS.subs(u_s, u_c), START, eq(G, sp.Integral(RESTS, (u_s, 0, u_c)))),
         "twice the time": ("separates", 2 / C, C),
         "another start": ("is continuous", 1 / C, C, eq(initial("u_c"), 1)),
     }),
@@ -115,6 +120,12 @@ FAMILIES = (
         "above what grows with tau": ("missing premise", ge(u_c, C * T * tau), START),
     }),
     Family(each, (lambda: timed(1 / C, C, eq(initial("u_c"), 1), low=1),), {
+        # x_inf = -1, theta = 2: tanh(1/2) + tanh(1) - 2
+        "a primitive that jumps, whose integral has a value": ("Ne", lambda: ByParts(JUMPS)(
+            eq(G, sp.Integral(sp.diff(JUMPS, u_s), (u_s, x_inf, theta))),
+            eq(h, sp.Integral(JUMPS, (u_s, x_inf, theta))))),
+        "an integral over time by parts": ("over time", lambda: ByParts(t**2 / 2)(
+            eq(G, sp.Integral(t, (t, 0, T))))),
         # u_c = -1/2
         "a start below zero": ("missing premise",
             lambda: timed(u_s / (C * q), C * q / sp.Abs(u_c), eq(initial("u_c"), -1), low=-1)),
@@ -170,18 +181,19 @@ FAMILIES = (
     }),
     Family(lambda apart: ByParts(-1 / (t - T))(
         eq(G, sp.Integral((t - T) ** -2, (t, 0, 2 * T))), apart), (), {
-        "over a pole where another wear has no rate": ("Ne", ne(rate("u_a") * (t - T), 0)),
+        "over a pole where another wear has no rate": ("without proof",
+            ne(rate("u_a") * (t - T), 0)),
         # u_c = C (t - T)
-        "over a pole at an instant without a rate": ("Ne", Arithmetic(sp.Ne(t - T, 0))(
+        "over a pole at an instant without a rate": ("without proof", Arithmetic(sp.Ne(t - T, 0))(
             eq(u_c, C * (t - T)), differentiate(SQUARE), TURNS)),
     }),
     Family(lambda primitive, body, s=p_s, low=1,
-        *facts: ByParts(primitive)(eq(G, sp.Integral(body, (s, low, 2))), *facts), (
+        *facts: ByParts(primitive)(eq(G, sp.Integral(body, (s, low * L, q))), *facts), (
         (p_s**2 / 2, p_s), (-1 / p_s, p_s**-2),
         (-1 / u_s, u_s**-2, u_s, f_c, ROUGHENS),  # across 0
     ), {
         "the primitive of another function": ("has the derivative", p_s**2, p_s),
-        "a primitive that jumps": ("Ne", -1 / u_s, u_s**-2, u_s, -1),  # from -1 to 1
+        "a primitive that jumps": ("Ne|without", -1 / u_s, u_s**-2, u_s, -1),  # from -1 to 1
         "a primitive that may have no value": ("Ne", 1 / b_0, p_s),
     }),
     Family(lambda value, known, *facts: Lambert(value)(known, *facts), (
