@@ -21,8 +21,8 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-z = sp.Dummy("z", positive=True)
-"""exp(2 pi i tau)."""
+z = sp.Dummy("z")
+"""exp(2 pi i tau), of no sign: SymPy must not decide on moduli and conditions."""
 
 
 def collected(

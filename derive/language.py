@@ -145,7 +145,8 @@ def guessed(integral: sp.Integral) -> bool:
     """
     body = integral.function
     signed = body.is_positive or body.is_negative
-    return bool(integral.is_number or (integral.is_zero is False and not signed))
+    closed = integral.is_number and not integral.atoms(AppliedUndef)
+    return bool(closed or (integral.is_zero is False and not signed))
 
 
 def _clocks(expr: sp.Expr) -> set[str]:

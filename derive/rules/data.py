@@ -109,8 +109,9 @@ class DataDerivative(Rule):
         _require_free(self.parameter, result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
+        apart = (side.xreplace({of_result: sp.Dummy(real=True)}) for side in self.claim.args)
+        require_defined(sp.Tuple(slope, *apart), *premises)
         left, right = (side.xreplace({of_result: slope}) for side in self.claim.args)
-        require_defined(sp.Tuple(left, right), *premises)
         if not smooth(result.rhs) or not is_zero(inserted(left - right, premises)):
             raise RuleError(f"missing premise: the derivative is {slope}")
         return Conclusion(Equality(*self.claim.args))

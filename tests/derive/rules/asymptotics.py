@@ -58,7 +58,7 @@ du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
-LOG_F = sp.log(f_c - 1)
+LOG_F, WAVING = sp.log(f_c - 1), sp.cos(4 * sp.pi * tau)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
 SWAYING, PACE = 2 + L * sp.sin(2 * sp.pi * tau) / ROUGHNESS, (ROUGHNESS, tau, rho)
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
@@ -231,6 +231,10 @@ FAMILIES = (
     }),
     Family(mean_of, ((U * sp.cos(2 * sp.pi * tau), 0), (h_0 * q, h_0 * q)), {
         "the mean over half a wave": ("the period 1", U * sp.cos(sp.pi * tau), 0),
+        # 2 h_0/pi
+        "the mean of a modulus": ("the period 1", h_0 * sp.Abs(sp.cos(4 * sp.pi * tau)), 0),
+        "the mean of pieces": ("the period 1",
+            h_0 * sp.Piecewise((WAVING, WAVING >= 0), (-WAVING, True)), 0),
         "the mean of a field": ("the period 1", h_0 * G, h_0 * G),  # G = tau
     }),
     Family(averaged, (1 + q,), {

@@ -247,6 +247,9 @@ FAMILIES = (
         (equal(SLOPE, h_0), beside(defined(q, 1 + f_c**2), gt(q, 2))),
     ), {
         "no datum": ("of the data", equal(sp.Derivative(u_cum, b_0), 0), GROWING, b_0),
+        # h_0 = 0
+        "a slope that is infinite, times what is zero": ("h_0 > 0",
+            equal(2 * sp.sqrt(h_0) * sp.Derivative(b_0, h_0), 1), defined(b_0, sp.sqrt(h_0)), h_0),
         "0/0 beside a slope": ("Ne", equal(SLOPE / (f_c - 1), h_0 / (f_c - 1))),
         "d(2 f_c)/d f_c at f_c = 1": ("may vary", equal(SLOPE, 0),
             substitute(defined(u_cum, f_c * h_0), eq(f_c, 1))),
