@@ -414,7 +414,7 @@ StepKey = tuple[Rule, tuple[Hypothesis, ...], Claim, tuple[Hashable, ...], bool]
 
 
 def step_key(step: Judgement) -> StepKey:
-    """Return a key that equal steps share, but none that a rule made with another."""
+    """Return a key that equal steps share, if a rule made both or neither."""
     parents = tuple((parent.hypotheses, parent.claim) for parent in step.parents)
     return (step.rule, step.hypotheses, step.claim, parents, step.is_made)
 

@@ -216,7 +216,8 @@ def _as_state(
     inlined = Model({**others, rate: rate}).inlined(image, about=field)
     if inlined.has(sp.floor):
         raise UndecidedError("an implicit field that jumps")
-    return {rate: _implicit_rate(field, inlined), field.subs(t, 0): _first_root(field, inlined)}
+    root = FirstZero(_PLAIN - inlined.xreplace({field: _PLAIN}), _PLAIN)
+    return {rate: _implicit_rate(field, inlined), field.subs(t, 0): root}
 
 
 @cache
@@ -224,12 +225,6 @@ def _implicit_rate(field: sp.Expr, image: sp.Expr) -> sp.Expr:
     """Return the rate of a field ``y = G(y)``."""
     flat = image.xreplace({field: _PLAIN})
     return (sp.diff(flat, t) / (1 - sp.diff(flat, _PLAIN))).xreplace({_PLAIN: field})
-
-
-@cache
-def _first_root(field: sp.Expr, image: sp.Expr) -> FirstZero:
-    """Return the value of a field ``y = G(y)``."""
-    return FirstZero(_PLAIN - image.xreplace({field: _PLAIN}), _PLAIN)
 
 
 def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
