@@ -70,11 +70,14 @@ class RuleError(ValueError):
 
 @dataclass(frozen=True)
 class Conclusion:
-    """The claim that a rule concludes, and the hypotheses that it adds and discharges."""
+    """The claim that a rule concludes, and the hypotheses that it adds and discharges.
+
+    ``gives`` are parts of the claim that have a value by the theorem, not by the premises."""
 
     claim: Claim
     adds: tuple[Hypothesis, ...] = ()
     discharges: tuple[Hypothesis, ...] = ()
+    gives: tuple[sp.Expr, ...] = ()
 
 
 @dataclass_transform(frozen_default=True)

@@ -17,4 +17,5 @@ Contents
     data          derivatives with respect to a parameter
     reading       the parts of claims, or a refusal
     proving       side conditions, decided by proof
+    theorem       rules whose conclusions are checked to have a value
 """

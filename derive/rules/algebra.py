@@ -15,8 +15,9 @@ from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..language import bound_in
 from ..symbols import t
 from ..zero import is_zero
-from .proving import coefficients, lasts, require, require_defined
+from .proving import coefficients, lasts, require
 from .reading import equality, replaced
+from .theorem import Theorem
 
 
 class Substitute(Rule):
@@ -52,14 +53,14 @@ def _put(claim: Claim, known: Equality, always: bool) -> Claim:
 substitute = Substitute()
 
 
-class Solve(Rule):
+class Solve(Theorem):
     """``a x + b = c x + d`` with ``a != c`` gives x; further premises show that ``a != c``."""
 
     unknown: sp.Expr
     words = "Solve {0} for {unknown}."
     premise_names = ("the equation",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
         parts = coefficients(given.lhs - given.rhs, self.unknown)
         if parts is None:
@@ -83,7 +84,7 @@ def inserted(expr: sp.Expr, premises: tuple[Judgement, ...]) -> sp.Expr:
     return expr
 
 
-class Insert(Rule):
+class Insert(Theorem):
     """An equation that becomes an identity when the equalities and limits among the premises are
     inserted, in order; ``ln a = b`` may also become ``a = e^b``."""
 
@@ -91,8 +92,7 @@ class Insert(Rule):
     words = "Both sides are equal by {all}."
     alone = "Both sides reduce to the same expression."
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
-        require_defined(self.claim, *premises)
+    def prove(self, *premises: Judgement) -> Conclusion:
         if not isinstance(self.claim, sp.Equality):
             raise RuleError(f"missing premise: {self.claim} is an equality")
         left, right = self.claim.args
@@ -104,19 +104,16 @@ class Insert(Rule):
         return Conclusion(Equality(*self.claim.args))
 
 
-class Consequence(Rule):
+class Consequence(Theorem):
     """A claim that becomes the first premise when the others are inserted into both."""
 
     claim: sp.Basic
     words = "Insert {others} into {0}."
     premise_names = ("the claim",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         first, *others = premises
         claim = claim_of(self.claim)
-        require_defined(claim.value if isinstance(claim, Limit) else self.claim, *premises)
-        if isinstance(claim, Limit) and isinstance(first.claim, Limit):
-            require_defined(claim.expr, *premises, near=[first.claim.expr])
         (kind, *sides), (known, *given) = _sides(claim), _sides(first.claim)
         pairs = zip(sides, given, strict=True)
         if kind != known or not all(is_zero(inserted(a - b, tuple(others))) for a, b in pairs):

@@ -22,14 +22,15 @@ import sympy as sp
 from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Drift, Equality, Oscillation, SlowEquation, Term
 from ..hypotheses import LOAD, SINE, Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, listed, plain
+from ..kernel import Conclusion, Judgement, RuleError, listed, plain
 from ..reals import LAW, holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
 from .growth import expanded, taylor
-from .proving import coefficients, continuous, facts_of, require_defined
+from .proving import coefficients, continuous, facts_of
 from .reading import T, clocks, constant, equality, fields, functions, require_hypothesis
+from .theorem import Theorem
 
 h_0, u_c, sigma_c0, f_c, p, U = symbols("h_0 u_c sigma_c0 f_c p U")
 b_0, theta, rho, tau, m, s_0 = symbols("b_0 theta rho tau m s_0")
@@ -84,7 +85,7 @@ def term_of(kind: type[Term], n: int, pressure: sp.Expr) -> Term:
     return kind(sp.Integer(n), law, ROUGHNESS, tau, rho)
 
 
-class OrderEquation(Rule):
+class OrderEquation(Theorem):
     """``dw_n/dtau = rho (K - c_n)``: the terms with 1/m^n, where K has terms of lower order.
 
     The premises give the pressure, a sine load, b_0 and theta, and name c_n and w_n, and those
@@ -99,7 +100,7 @@ class OrderEquation(Rule):
     source = "Sanders, Verhulst, Murdock, 2007"
     premise_names = ("the pressure",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given, n = equality(premises[0]), int(self.order)
         if n != self.order or n < 1:
             raise RuleError(f"missing premise: {self.order} is the number of an order")
@@ -112,7 +113,8 @@ class OrderEquation(Rule):
             drift.append(_named(term_of(Drift, k, given.rhs), *premises))
             waves.append(_named(term_of(Oscillation, k, given.rhs), *premises))
         known = collected(_series(given.rhs, n, *premises), drift, waves, n)
-        return Conclusion(Equality(sp.Derivative(waves[n], tau), rho * (known - drift[n])))
+        slope = sp.Derivative(waves[n], tau)
+        return Conclusion(Equality(slope, rho * (known - drift[n])), gives=(slope,))
 
 
 def _named(term: Term, *premises: Judgement) -> sp.Expr:
@@ -139,7 +141,7 @@ def _series(pressure: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Exp
     return sp.S.One, *(sp.factor(sp.cancel(c / steady)).subs(LOAD, load) for c in corrections)
 
 
-class Averaging(Rule):
+class Averaging(Theorem):
     """``dw/dtau = R(tau)``, where w has the period 1 and the mean 0: c_n in R, or w.
 
     The mean of R is 0, and so is that of every oscillation in it; the others give coefficients of
@@ -150,7 +152,7 @@ class Averaging(Rule):
     source = "Sanders, Verhulst, Murdock, 2007"
     premise_names = ("the equation of an order",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, (name, value) = equality(premises[0]), self.claim.args
         known = {h.relation for h in premises[0].hypotheses if h.kind is Kind.DEFINITION}
         waves = {r.lhs: sp.S.Zero for r in known if isinstance(getattr(r, "rhs", 0), Oscillation)}
@@ -158,7 +160,6 @@ class Averaging(Rule):
         whole = law.lhs.args[0] if of_wave else law.lhs
         if whole not in waves or value.has(*waves):
             raise RuleError(f"missing premise: {law.relation} is of an oscillation")
-        require_defined(self.claim, *premises)
         rest = sp.expand(inserted(law.rhs, premises[1:]))
         if not _periodic(rest.xreplace(waves)):
             raise RuleError(f"missing premise: {rest} has the period 1")
@@ -196,7 +197,7 @@ def _definitions(law: sp.Expr) -> set[sp.Equality]:
     }
 
 
-class SlowTime(Rule):
+class SlowTime(Theorem):
     """``rho tau + s_0 = F(m) + o(m^-3)``: ``F' (1 + c_1/m + ... + c_4/m^4) = 1 + O(m^-5)``.
 
     s_0 is the constant of integration, so F consists of powers of m and ln(m/rho) alone.
@@ -208,7 +209,7 @@ class SlowTime(Rule):
     words = "Divide by the drift, expand in powers of 1/m and integrate term by term, with {all}."
     source = "termwise integration of an asymptotic series"
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         known = {h.relation for premise in premises for h in premise.hypotheses}
         drifts = [symbol(f"c_{n}") for n in range(1, ORDER + 1)]
         laws = {term.args[1] for relation in known for term in relation.atoms(Drift)}
@@ -216,7 +217,6 @@ class SlowTime(Rule):
             names = listed(map(str, drifts))
             raise RuleError(f"missing premise: {names} are the drifts of the expansion")
         require_hypothesis(EXPANSION, *premises)
-        require_defined(self.claim.rhs, *premises)
         small = sp.Dummy("1/m", positive=True)
         speed = 1 + sum((c * small**n for n, c in enumerate(drifts, 1)), sp.S.Zero)
         slope = sp.diff(self.claim.rhs, m).subs(m, 1 / small)

@@ -14,7 +14,7 @@ import sympy as sp
 
 from ..claims import Equality, Inequality
 from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..kernel import Conclusion, Judgement, RuleError
 from ..note.model import SUPPORT
 from ..symbols import symbols, t
 from .proving import continuous, lasts, require, require_defined, smooth
@@ -28,20 +28,21 @@ from .reading import (
     initial_value,
     require_hypothesis,
 )
+from .theorem import Theorem
 
 U_c, p, k, T, tau = symbols("U_c p k T tau")
 
 SPRINGS = Hypothesis(SUPPORT, Kind.MODEL)
 
 
-class Integrate(Rule):
+class Integrate(Theorem):
     """``dy/dt = c dx/dt`` with constant c, y(0) and x(0) give ``y = y(0) + c (x - x(0))``."""
 
     words = "Integrate {0} over time, from {others}."
     source = "fundamental theorem of calculus"
     premise_names = ("the rate", "y(0)", "x(0)")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, start_y, start_x = premises
         given = equality(law)
         y = field_of_rate(given.lhs)
@@ -58,14 +59,14 @@ class Integrate(Rule):
 integrate = Integrate()
 
 
-class Grows(Rule):
+class Grows(Theorem):
     """``du/dt >= c`` with constant c, and u(0), give ``u >= u(0) + c t``."""
 
     words = "Integrate the constant lower bound of {0}, from {others}."
     source = "mean value theorem on [0, t]"
     premise_names = ("the bound of the rate", "u(0)")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         bound, start = premises
         found = inequality(bound)
         u, least = field_of_rate(found.greater), found.lesser
@@ -78,7 +79,7 @@ class Grows(Rule):
 grows = Grows()
 
 
-class Differentiate(Rule):
+class Differentiate(Theorem):
     """An equality that holds at every time gives that of the rates of both sides.
 
     Wear and roughness have rates by Archard's law; other fields need a premise that they have.
@@ -88,7 +89,7 @@ class Differentiate(Rule):
     source = "chain rule"
     premise_names = ("the equation",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
         if not smooth(given.lhs - given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
@@ -96,13 +97,13 @@ class Differentiate(Rule):
         # A field that equals the other side at every time has its rate, if that always has a value.
         single = lasts(premises[0]) and given.lhs in fields(given.lhs)
         require_defined(sp.Tuple(*rates[single:]), *premises, always=single)
-        return Conclusion(Equality(*rates))
+        return Conclusion(Equality(*rates), gives=rates[:single])
 
 
 differentiate = Differentiate()
 
 
-class RigidLimit(Rule):
+class RigidLimit(Theorem):
     """``k U_c = p`` becomes ``U_c = 0``, and an equation its limit for k -> oo.
 
     The same fields belong to a support of stiffness k under the load ``U_a + p/k`` and to a rigid
@@ -113,7 +114,7 @@ class RigidLimit(Rule):
     words = "Let the stiffness tend to infinity in {0}: the support is rigid."
     premise_names = ("the equation",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         (first,) = premises
         given, small = equality(first), sp.Dummy("1/k", positive=True)
         require_hypothesis(SPRINGS, first)
@@ -135,14 +136,14 @@ class RigidLimit(Rule):
 rigid = RigidLimit()
 
 
-class ChangeClock(Rule):
+class ChangeClock(Theorem):
     """``y = c v`` with constant c, and ``t = T tau``, give ``dy/dt = (c/T) dv/dtau``."""
 
     words = "Measure time in periods, in {all}."
     source = "chain rule"
     premise_names = ("the scale of y", "t = T tau")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         scaled, clock = map(equality, premises)
         moving = [f for f in scaled.rhs.atoms(sp.Function) if f.args == (tau,)]
         if (clock.lhs, clock.rhs) != (t, T * tau) or len(moving) != 1 or not lasts(premises[0]):
@@ -150,10 +151,9 @@ class ChangeClock(Rule):
         factor = sp.cancel(scaled.rhs / moving[0])
         if not constant(factor):
             raise RuleError(f"missing premise: {factor} is constant")
-        rate = sp.Derivative(scaled.lhs, t)
-        require_defined(rate, *premises)
         require(sp.Ne(factor, 0), *premises)
-        return Conclusion(Equality(rate, factor / T * sp.Derivative(moving[0], tau)))
+        rate, scaled_rate = sp.Derivative(scaled.lhs, t), sp.Derivative(moving[0], tau)
+        return Conclusion(Equality(rate, factor / T * scaled_rate), gives=(scaled_rate,))
 
 
 change_clock = ChangeClock()

@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from ..claims import Equality
 from ..hypotheses import LOAD, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..kernel import Conclusion, Judgement, RuleError
 from ..language import defined_by, names
 from ..laws import r
 from ..note.model import subject
@@ -23,6 +23,7 @@ from ..zero import is_zero
 from .algebra import inserted
 from .proving import is_contact_law, open_set, require_defined, smooth, undefined
 from .reading import equality, functions
+from .theorem import Theorem
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
@@ -91,7 +92,7 @@ def _is_pressure_law(relation: sp.Basic) -> bool:
     return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
-class DataDerivative(Rule):
+class DataDerivative(Theorem):
     """``y = F(a, ...)`` gives ``dy/da``: F is a function of data, of which a varies alone.
 
     The claim has the derivative of y; further premises name constants of the claim.
@@ -102,16 +103,15 @@ class DataDerivative(Rule):
     words = "Differentiate {0} with respect to {parameter}[, with {others}]."
     premise_names = ("the result",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         result = equality(premises[0])
         if not result.lhs.is_Symbol or self.parameter.name not in DATA:
             raise RuleError(f"missing premise: {self.parameter} is one of the data")
         _require_free(self.parameter, result.rhs, *premises)
         slope = sp.diff(result.rhs, self.parameter)
         of_result = sp.Derivative(result.lhs, self.parameter, evaluate=False)
-        apart = (side.xreplace({of_result: sp.Dummy(real=True)}) for side in self.claim.args)
-        require_defined(sp.Tuple(slope, *apart), *premises)
+        require_defined(slope, *premises)
         left, right = (side.xreplace({of_result: slope}) for side in self.claim.args)
         if not smooth(result.rhs) or not is_zero(inserted(left - right, premises)):
             raise RuleError(f"missing premise: the derivative is {slope}")
-        return Conclusion(Equality(*self.claim.args))
+        return Conclusion(Equality(*self.claim.args), gives=(of_result,))

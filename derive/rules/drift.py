@@ -13,7 +13,7 @@ import sympy as sp
 
 from ..claims import Asymptotic
 from ..hypotheses import LOAD, PERIODIC, SINE
-from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..kernel import Conclusion, Judgement, RuleError
 from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero
@@ -31,13 +31,14 @@ from .reading import (
     rate_law,
     require_hypothesis,
 )
+from .theorem import Theorem
 
 N, U, U_mean = symbols("N U U_mean")
 MEAN = sp.Eq(U_mean, sp.Integral(LOAD, (t, 0, T)) / T)
 """The definition of the mean of the load."""
 
 
-class FirstOrder(Rule):
+class FirstOrder(Theorem):
     """The approach of the rate to its limit, from that of h/sigma.
 
     ``du/dt = F(x)``, ``u (x - l) - a -> 0`` with bounded a, ``x -> l``, ``du/dt -> R > 0``:
@@ -48,7 +49,7 @@ class FirstOrder(Rule):
     source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
     premise_names = ("the rate", "the deviation", "the limit of the ratio", "the limit of the rate")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, deviation, ratio, speed, *_ = premises
         y, (u, rate) = sp.Dummy(real=True), rate_law(law)
         approach, x, steady = map(limit_in_time, (deviation, ratio, speed))
@@ -74,7 +75,7 @@ class FirstOrder(Rule):
 first_order = FirstOrder()
 
 
-class LogarithmicDrift(Rule):
+class LogarithmicDrift(Theorem):
     """``t (du/dt - R) - a(U_a) -> 0``, a linear: ``(u - R t)/ln(t/T) -> a(<U_a>)``.
 
     The load is periodic; <U_a> is its mean over a period, so that it is integrable.
@@ -84,7 +85,7 @@ class LogarithmicDrift(Rule):
     source = "a periodic function over t integrates to its mean times ln N and a bounded rest"
     premise_names = ("the approach of the rate",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         approach = limit_in_time(premises[0])
         for relation in (PERIODIC.relation, MEAN):
             require_hypothesis(relation, *premises)
@@ -99,7 +100,7 @@ class LogarithmicDrift(Rule):
         if approach.value != 0 or rest != 0 or speed.has(now, load) or not linear:
             raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
         drift = (u - speed * t) / sp.log(t / T)
-        return Conclusion(in_time(drift, periodic.subs(load, U_mean)))
+        return Conclusion(in_time(drift, periodic.subs(load, U_mean)), gives=(1 / sp.log(t / T),))
 
 
 def _laws(expr: sp.Expr) -> set[sp.Basic]:
@@ -109,7 +110,7 @@ def _laws(expr: sp.Expr) -> set[sp.Basic]:
 logarithmic_drift = LogarithmicDrift()
 
 
-class LogarithmicGrowth(Rule):
+class LogarithmicGrowth(Theorem):
     """``e^((u - U_a)/s) du/dt -> a > 0`` with constant s > 0, under ``U_a = U sin(2 pi t/T)``:
     ``u(N T) = s ln(1 + a N T I_0(U/s)/s) + o(1)`` as N -> oo.
 
@@ -123,7 +124,7 @@ class LogarithmicGrowth(Rule):
     source = "DLMF 10.32.1; Cesaro's theorem"
     premise_names = ("the limit",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         growth = limit_in_time(premises[0])
         require_hypothesis(SINE.relation, *premises)
         (rate,) = growth.expr.atoms(sp.Derivative)
@@ -135,10 +136,10 @@ class LogarithmicGrowth(Rule):
             require(sp.Gt(positive, 0), *premises)
         mean = sp.besseli(0, U / s)
         worn = s * sp.log(1 + a * N * T * mean / s)
-        return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo))
+        return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo), gives=(worn,))
 
 
-class LeadingTerm(Rule):
+class LeadingTerm(Theorem):
     """``c N = F(s)`` gives ``ln N = K(s) + o(1)`` as s -> 0+: ``e^K -> oo``, ``N'/(e^K)' -> 1``.
 
     F may have an integral up to s, whose derivative is its integrand; c is constant, not 0.
@@ -152,11 +153,11 @@ class LeadingTerm(Rule):
     source = "L'Hopital's rule"
     premise_names = ("the equation",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given, (left, leading) = equality(premises[0]), self.claim.args
         s = next(iter(fields(given.rhs)), t)
         pace = sp.cancel(given.lhs / left.args[0]) if isinstance(left, sp.log) else t
-        require_defined(sp.Tuple(*left.args, leading), *premises)
+        require_defined(sp.Tuple(*left.args), *premises)
         small = sp.Dummy("s", positive=True)
         worn, cycles = (e.xreplace({s: small}) for e in (leading, given.rhs / pace))
         slope, claimed = sp.diff(cycles, small), sp.diff(worn, small)
@@ -172,7 +173,7 @@ class LeadingTerm(Rule):
         quotient = _at_zero(slope / (sp.exp(worn) * claimed), small, *premises)
         if quotient is None or not is_zero(quotient - 1):
             raise RuleError("missing premise: the quotient of the slopes tends to one")
-        return Conclusion(Asymptotic(left, leading, s, sp.S.Zero))
+        return Conclusion(Asymptotic(left, leading, s, sp.S.Zero), gives=(left,))
 
 
 def _at_zero(expr: sp.Expr, small: sp.Dummy, *premises: Judgement) -> sp.Expr | None:

@@ -25,7 +25,7 @@ from ..reals import LAW, holds
 from ..symbols import symbol, t
 from ..zero import is_zero
 from .limits import in_time
-from .proving import coefficients, continuity, continuous, facts_of, require, require_defined
+from .proving import coefficients, continuity, continuous, facts_of, require
 from .reading import (
     T,
     constant,
@@ -36,11 +36,12 @@ from .reading import (
     rate_law,
     require_hypothesis,
 )
+from .theorem import Theorem
 
 U = symbol("U")
 
 
-class Diverges(Rule):
+class Diverges(Theorem):
     """``u >= c t + d`` with constants c > 0 and d: ``a + f u -> oo`` for constants f > 0 and a.
 
     u is a field, or time itself.
@@ -50,14 +51,13 @@ class Diverges(Rule):
     words = "By {0}, the wear grows without bound, and with it {expr}."
     premise_names = ("the growth",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         growth = inequality(premises[0])
         u, bound = growth.greater, growth.lesser
         speed, slope = sp.diff(bound, t), sp.diff(self.expr, u)
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
         if fields(u) | {t} != {u, t} or not all(map(constant, steady)):
             raise RuleError(f"missing premise: {self.expr} is linear in a growing field")
-        require_defined(self.expr, *premises)
         for positive in (speed, slope):
             require(sp.Gt(positive, 0), *premises)
         return Conclusion(in_time(self.expr, sp.oo))
@@ -126,7 +126,7 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
         raise RuleError(f"missing premise: {rate} is positive and continuous")
 
 
-class Unbounded(Rule):
+class Unbounded(Theorem):
     """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
 
     If u, which increases, were bounded, u and a would stay in a compact set, on which F has a
@@ -140,7 +140,7 @@ class Unbounded(Rule):
     source = "extreme value theorem"
     premise_names = ("the rate",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, *facts = premises
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
@@ -182,7 +182,7 @@ def expanded(expr: sp.Expr, small: sp.Symbol) -> tuple[int, sp.Expr]:
     raise RuleError(f"missing premise: {expr} is a smooth function at infinity")
 
 
-class AtInfinity(Rule):
+class AtInfinity(Theorem):
     """The limit of a function of u and bounded fields, where ``u -> oo``.
 
     The function is written as ``z^-n N(z, a)`` with ``z = 1/u``, or another ``small`` function of
@@ -196,7 +196,7 @@ class AtInfinity(Rule):
     source = "Taylor's theorem"
     premise_names = ("the growth",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         u, inside = growing(premises[0]), self.claim.lhs.args[0]
         z = sp.Dummy("z", positive=True)
         deep = self._deep(u, z, premises)
@@ -207,7 +207,6 @@ class AtInfinity(Rule):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
-        require_defined(inside, *premises)
         bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
         if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")
@@ -217,7 +216,6 @@ class AtInfinity(Rule):
         value = sp.powsimp(taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
-        require_defined(sp.Tuple(value, self.claim.rhs), *premises)
         return Conclusion(in_time(inside, self.claim.rhs))
 
     def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
@@ -242,7 +240,7 @@ def _derivative(expr: sp.Expr, z: sp.Symbol, n: int) -> sp.Expr:
     return sp.diff(_derivative(expr, z, n - 1), z) if n else expr
 
 
-class Intermittent(Rule):
+class Intermittent(Theorem):
     """A rate ``F(u, load)`` in contact, else 0, where contact depends on the load alone.
 
     Premises: the rate, piecewise; the definition of d > 0, the fraction of the period in contact;
@@ -254,7 +252,7 @@ class Intermittent(Rule):
     source = "mean value theorem on the part of the period in contact"
     premise_names = ("the rate", "the fraction in contact", "the least wear")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, part, start, *_ = premises
         (u, function), meaning, least = rate_law(law), equality(part), inequality(start)
         require_hypothesis(PERIODIC.relation, *premises)

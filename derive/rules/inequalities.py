@@ -13,14 +13,15 @@ from __future__ import annotations
 import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
-from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..kernel import Conclusion, Judgement, RuleError
 from ..reals import holds, sign
 from ..zero import is_zero
 from .proving import continuity, facts_of, require, require_defined, smooth
 from .reading import inequality
+from .theorem import Theorem
 
 
-class Arithmetic(Rule):
+class Arithmetic(Theorem):
     """A relation that follows from the premises in the real numbers."""
 
     claim: sp.Basic
@@ -28,12 +29,12 @@ class Arithmetic(Rule):
     alone = "This holds for all numbers."
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         require(self.claim, *premises)
         return Conclusion(claim_of(self.claim))
 
 
-class Monotone(Rule):
+class Monotone(Theorem):
     """``a >= b`` gives ``F(a) >= F(b)`` for an increasing F, ``<=`` for a decreasing one."""
 
     function: sp.Lambda
@@ -41,7 +42,7 @@ class Monotone(Rule):
     source = "the derivative of the function has one sign between the two sides"
     premise_names = ("the bound",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         bound, at = inequality(premises[0]), sp.Dummy(real=True)
         value = self.function(at)
         inside = (sp.Ge(at, bound.lesser), sp.Le(at, bound.greater))
@@ -57,7 +58,7 @@ class Monotone(Rule):
         return Conclusion(Inequality(relation[direction < 0](high, low, evaluate=False)))
 
 
-class Lipschitz(Rule):
+class Lipschitz(Theorem):
     """``-1 <= F' <= 0`` everywhere gives ``0 <= c (F(a) - F(a + d)) <= c d`` for c, d >= 0."""
 
     function: sp.Lambda
@@ -67,12 +68,11 @@ class Lipschitz(Rule):
     words = "The mean value theorem, with a slope between -1 and 0."
     source = "mean value theorem"
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         y = sp.Dummy(real=True)
         value = self.function(y)
         slope = sp.diff(value, y)
         require_defined(value)
-        require_defined(sp.Tuple(self.at, self.step, self.factor), *premises)
         if not smooth(value) or not holds(sp.And(slope <= 0, slope >= -1)):
             raise RuleError(f"missing premise: -1 <= {slope} <= 0")
         for nonnegative in (self.step, self.factor):
@@ -83,7 +83,7 @@ class Lipschitz(Rule):
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 
-class LogarithmicSlope(Rule):
+class LogarithmicSlope(Theorem):
     """``|F'/F| <= m`` for F > 0 gives ``|ln(F(a)/F(b))| <= m |a - b|``."""
 
     function: sp.Lambda
@@ -96,11 +96,10 @@ class LogarithmicSlope(Rule):
     )
     source = "mean value theorem"
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         y = sp.Dummy(real=True)
         value = self.function(y)
         require_defined(value)
-        require_defined(sp.Tuple(self.a, self.b, self.bound), *premises)
         slope = sp.cancel((sp.diff(value, y) / value).rewrite(sp.exp))
         goals = (value > 0, self.bound - slope >= 0, self.bound + slope >= 0)
         if not smooth(value) or not all(holds(goal) for goal in goals):
@@ -110,7 +109,7 @@ class LogarithmicSlope(Rule):
         return Conclusion(Inequality(sp.Le(sp.Abs(sp.log(ratio)), bound, evaluate=False)))
 
 
-class Threshold(Rule):
+class Threshold(Theorem):
     """``F(x) > e`` if and only if ``x > x*``, where F increases and F(x*) = e.
 
     If x is positive by a premise, F need increase for positive numbers only, and x* is one.
@@ -120,7 +119,7 @@ class Threshold(Rule):
     variable: sp.Expr
     words = "The left side increases with {variable} and equals the level at the bound, by {all}."
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         claim = claim_of(self.claim)
         if not isinstance(claim, Equivalence):
             raise RuleError(f"missing premise: {self.claim} is an equivalence")
@@ -133,7 +132,7 @@ class Threshold(Rule):
         positive = holds(sp.Gt(self.variable, 0), facts_of(premises))
         any_ = sp.Dummy(positive=True) if positive else sp.Dummy(real=True)
         value = function.subs(self.variable, any_)
-        require_defined(sp.Tuple(value, level, point), *premises)
+        require_defined(value, *premises)
         if positive:
             require(sp.Gt(point, 0), *premises)
         slope = sp.diff(value, any_)

@@ -23,7 +23,7 @@ from ..reals import LAW
 from ..symbols import t
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import continuous, require_defined
+from .proving import continuous
 from .reading import (
     T,
     between,
@@ -34,6 +34,7 @@ from .reading import (
     growing,
     limit_in_time,
 )
+from .theorem import Theorem
 
 
 def forever(expr: sp.Expr) -> sp.Limit:
@@ -79,14 +80,14 @@ def _at_one_time(expr: sp.Basic) -> bool:
     return not clocks(expr) and not any(t in bound(node) for node in nodes)
 
 
-class Vanishes(Rule):
+class Vanishes(Theorem):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
     words = "The bounds in {0} tend to zero, since the roughness grows by {others}."
     source = "squeeze theorem"
     premise_names = ("the bounds", "the growth")
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         squeeze, divergence = premises
         (low, middle, high), size = between(squeeze), growing(divergence)
         for side in (low, high):
@@ -98,7 +99,7 @@ class Vanishes(Rule):
 vanishes = Vanishes()
 
 
-class Passes(Rule):
+class Passes(Theorem):
     """Limits pass through a function that is continuous at them, and through one period.
 
     The premises give the limits of some expressions, and equalities; the claim is the limit of a
@@ -111,7 +112,7 @@ class Passes(Rule):
         "continuous at them."
     )
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         whole = self.claim.lhs.args[0]
         ends, meaning = dict[sp.Symbol, sp.Expr](), dict[sp.Symbol, sp.Expr]()
         for given in (limit_in_time(p) for p in premises if isinstance(p.claim, Limit)):
@@ -133,11 +134,9 @@ class Passes(Rule):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
         if not continuous(expr, ends, *premises):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
-        require_defined(whole, *premises, near=meaning.values())
-        require_defined(self.claim.rhs, *premises)
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
-        return Conclusion(in_time(whole, self.claim.rhs))
+        return Conclusion(in_time(whole, self.claim.rhs), gives=(*meaning.values(),))
 
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
@@ -160,14 +159,14 @@ def _cancelled(expr: sp.Expr) -> sp.Expr:
     return inner if isinstance(inner, sp.Function) else sp.cancel(inner)
 
 
-class Accumulates(Rule):
+class Accumulates(Theorem):
     """``du/dt -> R``, finite: the wear of one period tends to ``R T``."""
 
     words = "Integrate the limit {0} over one period."
     source = "mean value theorem on [t, t + T]"
     premise_names = ("the limit of the rate",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given = limit_in_time(premises[0])
         u = field_of_rate(given.expr)
         if not constant(given.value) or given.value.is_finite is False:

@@ -16,7 +16,7 @@ import sympy as sp
 
 from ..claims import Continuous, Equality, FirstZero, Property
 from ..hypotheses import CONSTANT, LOAD
-from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
+from ..kernel import Conclusion, Judgement, RuleError, plain
 from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
@@ -40,18 +40,19 @@ from .reading import (
     replaced,
     require_hypothesis,
 )
+from .theorem import Theorem
 
 PRESSURE = symbol("p")
 
 
-class Follows(Rule):
+class Follows(Theorem):
     """The only root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
 
     words = "The pressure is the only root of {0}, and a continuous function of wear and load."
     source = "implicit function theorem"
     premise_names = ("the equation of the pressure",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given, facts = equality(premises[0]), lasting_facts(premises)
         p = sp.Dummy("p", positive=True)
         value = given.rhs.xreplace({PRESSURE: p})
@@ -71,7 +72,7 @@ class Follows(Rule):
 follows = Follows()
 
 
-class Separate(Rule):
+class Separate(Theorem):
     """``du/dt = Q(y)`` and ``u = G(y)`` give ``c t = int g(s) ds`` from y(0) to y, ``g Q = c G'``.
 
     Premises: the rate, then u in terms of y, unless y is u, and y(0), unless the integral begins
@@ -83,7 +84,7 @@ class Separate(Rule):
     source = "chain rule; implicit function theorem"
     premise_names = ("the rate",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         law, *others = premises
         (u, rate), integral = rate_law(law), one_integral(self.claim.rhs)
         require_hypothesis(CONSTANT.relation, *premises)
@@ -108,7 +109,7 @@ class Separate(Rule):
         return Conclusion(Equality(*self.claim.args))
 
 
-class ByParts(Rule):
+class ByParts(Theorem):
     """``int g ds = F(b) - F(a) + int r ds`` from a to b, for a smooth F with ``F' = g - r``."""
 
     primitive: sp.Expr
@@ -116,7 +117,7 @@ class ByParts(Rule):
     source = "fundamental theorem of calculus; integration by parts"
     premise_names = ("the integral",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
         integral = one_integral(given.rhs)
         (limits,) = integral.limits
@@ -128,7 +129,8 @@ class ByParts(Rule):
             raise RuleError(f"missing premise: {self.primitive} has the derivative of {given.rhs}")
         first, last = (self.primitive.subs(s, end) for end in ends)
         left = sp.Integral(self.rest, limits) if self.rest != 0 else self.rest
-        return Conclusion(Equality(given.lhs, replaced(given.rhs, integral, last - first + left)))
+        value = replaced(given.rhs, integral, last - first + left)
+        return Conclusion(Equality(given.lhs, value), gives=(value,))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         if self.rest == 0:
@@ -136,7 +138,7 @@ class ByParts(Rule):
         return f"Integrate {labels[0]} by parts: {write(self.primitive)} leaves the integral."
 
 
-class Lambert(Rule):
+class Lambert(Theorem):
     """``w e^w = x`` with ``w >= 0`` gives ``w = W(x)``, as ``w e^w`` increases there."""
 
     argument: sp.Expr
@@ -144,16 +146,15 @@ class Lambert(Rule):
     source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
     premise_names = ("the equation",)
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         given, w = equality(premises[0]), self.argument
-        require_defined(w, *premises)
         require(sp.Ge(w, 0), *premises)
         if not is_zero(given.lhs - w * sp.exp(w)):
             raise RuleError(f"missing premise: {given.relation} is w e^w = x for w = {w}")
         return Conclusion(Equality(w, sp.LambertW(given.rhs)))
 
 
-class FirstRoot(Rule):
+class FirstRoot(Theorem):
     """The first positive zero x of f, where ``f w = a_0 + 2 a_1 x + a_2 x^2`` with w > 0.
 
     With ``a_0 > 0``, ``D = a_1^2 - a_2 a_0 >= 0`` and ``sqrt(D) > a_1`` it exists, and is
@@ -165,7 +166,7 @@ class FirstRoot(Rule):
     words = "The first root of a quadratic equation, from {all}."
     source = "the quadratic formula, in the form without cancellation"
 
-    def conclude(self, *premises: Judgement) -> Conclusion:
+    def prove(self, *premises: Judgement) -> Conclusion:
         if not isinstance(self.zero, FirstZero):
             raise RuleError(f"missing premise: {self.zero} is a first zero")
         function, x = self.zero.args
@@ -180,4 +181,5 @@ class FirstRoot(Rule):
         require(sp.Gt(self.factor.subs(x, z), 0), *premises)
         for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
             require(goal, *premises)
-        return Conclusion(Equality(self.zero, a_0 / (sp.sqrt(inside) - a_1)))
+        root = a_0 / (sp.sqrt(inside) - a_1)
+        return Conclusion(Equality(self.zero, root), gives=(self.zero,))

@@ -186,7 +186,7 @@ FAMILIES = (
             equal(sp.Integral(2 * WORN_AT, (t, 0, T)), 2 * sp.Integral(WORN_AT, (t, 0, T)))),
         "|f_c| = f_c": ("no identity", sp.Eq(sp.Abs(f_c), f_c)),
         "log(x^2) = 2 log(x)": ("x_inf.* > 0", sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf))),
-        "W(x e^x) = x": (">= 0", sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
+        "W(x e^x) = x": ("no identity", sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
         "zero is not one": ("no identity", equal(sp.log(f_c**2) - sp.log(f_c**2), 1)),
         "no equation": ("is an equality", sp.Ge(f_c, q)),
         # y = -1: imaginary
@@ -198,7 +198,7 @@ FAMILIES = (
         (kappa, h, eq(sp.log(kappa), h)),
     ), {
         "the logarithm of a bound": ("no identity", kappa, f_c, ge(kappa, sp.exp(f_c))),
-        "the logarithm of what may be negative": ("h.* > 0", h, sp.log(h_0), eq(h**2, h_0**2)),
+        "the logarithm of what may be negative": ("h.* > 0", h, sp.log(h_0), eq(h, h_0)),
     }),
     Family(lambda claim, *known: Consequence(claim)(*known), (
         (sp.Le(-G, h_0), le(-G, L), eq(L, h_0)), (sp.Eq(rate("u_c") * T / q, C * T / q), SPEED),
@@ -215,7 +215,7 @@ FAMILIES = (
         "another form of a limit, with a rate": ("Derivative",
             end(G + (dU + 1) * (dU - 1) - dU**2, q), tends(G, q + 1)),
         "another form of a limit, with 0/0": ("Ne", end(G + GAP, theta), tends(G, theta)),
-        "divided by what may vanish": ("Ne", sp.Eq(h / f_c, u_a / f_c), SIDES),
+        "divided by what may vanish": ("become", sp.Eq(h / f_c, u_a / f_c), SIDES),
     }),
     # ---- names
     Family(lambda claim, *said: Arithmetic(claim)(*said), (

@@ -208,7 +208,7 @@ FAMILIES = (
             FEW + sp.log((b_0**2 * L + 2 * sigma_c) / (b_0**2 * L + sigma_c))),
         "what wavers": ("is about", FEW + sp.sin(1 / sigma_c)),
         "a roughness of either trend": ("f_c", FEW, LOG_N, sp.Ne(f_c, 0)),
-        "a name that may be zero": ("b_0", FEW + 1 / b_0),
+        "a name that may be h_0": ("Ne", FEW + (b_0**2 - h_0**2) / (b_0 - h_0) - b_0 - h_0),
     }),
     # ---- averages
     Family(lambda claim, name="c_1", *known: Averaging(claim)(first_order_terms(name), *known), (
@@ -300,7 +300,7 @@ FAMILIES = (
             sp.Piecewise((h_0, sp.Gt(m, L)), (0, True))),
         # h_0^3 u_c/m^4 is no o(m^-3)
         "a wear that goes like m": ("powers of m", h_0**4 * u_c / m**4),
-        "a slow time with 0/0": ("Ne", GAP * h_0**5 / m**5),
+        "a slow time with 0/0": ("powers of m", GAP * h_0**5 / m**5),
         "a slow time with a drift less": ("the drifts", 0, 0),
         "a slow time of any roughness": ("Definition of s_0", 0, 4),
         "another time": ("dtau/dm", 0, None, h_0),

@@ -228,7 +228,7 @@ FAMILIES = (
         "time in periods, with a factor N": ("constant", eq(u_c, N * h_0 * v)),  # u_c = h_0 tau v
         "the rate of v, times what may vanish": ("b_0/T|b_0, 0", eq(u_c, b_0 * v)),  # v jumps
         "time in periods, with a field": ("constant", eq(u_c, h * v)),
-        "the rate of what jumps": ("Derivative", eq(h, h_0 * v)),  # h = h_0 v, a square wave
+        "the rate of what jumps": ("Derivative", eq(h, q * v)),  # a square wave
         # the left side is 0 to SymPy
         "the rate of w = q v, with time held": ("Derivative", eq(w, q * v)),
         # v may be 0 at rational tau
@@ -351,7 +351,7 @@ FAMILIES = (
     ), {
         "a slope that is too steep": ("-1 <= ", -2 * y),
         "a root": (">= 0", -sp.sqrt(y)),
-        "a step from nowhere": ("f_c", -y, 1 / f_c),
+        "a step from nowhere": ("f_c", -sp.tanh(y), 1 / f_c),
     }),
     Family(lambda body, a, b, bound: infer(LogarithmicSlope(sp.Lambda(y, body), a, b, bound)), (
         (sp.exp(y), theta, x_inf, 4 + f_c**2), (1 + sp.tanh(y), theta, q, sp.Integer(2)),

@@ -90,7 +90,7 @@ def attempt(build: Application) -> RuleError | Judgement:
 
 def kinds(kind: type[Rule] = Rule) -> Iterator[type[Rule]]:
     for rule in kind.__subclasses__():
-        if rule.__module__.startswith(rules.__name__):
+        if rule.__module__.startswith(rules.__name__) and not inspect.isabstract(rule):
             yield rule
         yield from kinds(rule)
 
