@@ -33,8 +33,8 @@ _LATE = (10**2, 3 * 10**5)
 _NEAR, _FAR, _FARTHEST = 10**3, 10**5, 10**8
 """Numbers of periods after which trends are read: before rounding hides them; by default; to
 confirm a refusal."""
-_APART, _CLOSE, _LAST = (0, 2, 4), (1, 2, 3, 4), (4,)
-"""Windows, of five, for the verdict on a limit, for its value, and for the last value."""
+_APART, _CLOSE, _FIRST, _LAST = (0, 2, 4), (1, 2, 3, 4), (0,), (4,)
+"""Windows, of five, for the verdict on a limit, for its value, and the first and last of them."""
 
 _V = symbol("V")
 
@@ -43,6 +43,9 @@ _DEEP = 40
 
 _TRUSTED = arb(10) ** -12
 """Relative error of a state."""
+
+_SMALL = arb(10) ** -5
+"""Size of a sum, relative to its terms, below which it has no clear trend."""
 
 _UNMOVED = arb(10) ** -6
 """Relative width of a constant up to which a datum is known to have no influence on it."""
@@ -258,7 +261,18 @@ class Model:
                 raise
             faster = self.with_datum(_V, 1000 * fraction(self.values[_V]))
             values = faster._trend_values(expr, _FAR, _APART)
-        return trend.tends_to(values, end) or outcome
+        outcome = trend.tends_to(values, end) or outcome
+        return None if outcome is False and self._cancels(expr) else outcome
+
+    def _cancels(self, expr: sp.Limit) -> bool:
+        """Return whether an expression is so small against its terms that its trend is not clear.
+
+        A change of slow fields seems to last for as long as they are known.
+        """
+        parts = sp.Add.make_args(expr.args[0])
+        terms = (sp.Limit(part, *expr.args[1:3]) for part in parts if len(parts) > 1)
+        least = abs(self.latest(expr)) / _SMALL
+        return any(abs(self._trend_values(term, _FAR, _FIRST)[0][0]) > least for term in terms)
 
     def slope(self, name: sp.Symbol, data: tuple[sp.Symbol, ...]) -> Number:
         """Return the derivative of a constant with respect to one datum, all others held.

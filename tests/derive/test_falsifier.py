@@ -116,6 +116,14 @@ def test_a_rate_that_is_lost_in_rounding_breaks_no_claim():
     assert falsify(given, sp.Eq(u_c, slow * t)).passed
 
 
+def test_a_change_that_is_slow_is_no_change_for_ever():
+    """As long as the fields are known, the rate falls by about 1e-9 of itself in a period."""
+    C, T, L = symbols("C T L")
+    slow = sp.Eq(rate("u_c"), C * sp.exp(-u_c * C * T / (10**9 * L**2)))
+    change = slow.lhs.subs(u_c, u_c.subs(t, t + T)) - slow.lhs
+    assert falsify((slow, sp.Eq(initial("u_c"), 0)), sp.Eq(forever(change), 0)).passed
+
+
 def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
     close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
     broken = falsify((sp.Eq(h_0, 2),), close)
