@@ -28,7 +28,7 @@ from ..symbols import symbol, symbols, t
 from ..zero import is_zero
 from .algebra import inserted
 from .growth import expanded, taylor
-from .proving import coefficients, continuous, facts_of
+from .proving import coefficients, continuous, facts_of, lasts
 from .reading import T, clocks, constant, equality, fields, functions, require_hypothesis
 from .theorem import Theorem
 
@@ -47,8 +47,11 @@ SATURATION = sp.Eq(theta, sp.tanh(4 - 2 / f_c))
 def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Expr, ...]:
     """Return the coefficients of a law in powers of 1/roughness.
 
-    RuleError unless it is smooth at infinity and tends to a constant that is not zero.
+    RuleError unless it is smooth at infinity and continuous in the load, and tends to a constant
+    that is not zero.  The unspecified contact law has one continuous derivative.
     """
+    if law.has(sp.Piecewise) or (order > 1 and law.has(LAW)):
+        raise RuleError(f"missing premise: {law} is smooth enough for order {order}")
     if not constant(law.xreplace({part: sp.Dummy() for part in (tau, *fields(law))})):
         raise RuleError(f"missing premise: {law} has no rate, integral or limit")
     small = sp.Dummy("1/sigma", positive=True)
@@ -70,8 +73,8 @@ def require_expansion(term: Term, *premises: Judgement) -> None:
     steady = law.subs(sp.sin(2 * sp.pi * tau), sp.Dummy(real=True))
     if variables != [ROUGHNESS, tau, rho] or functions(law) or clocks(steady):
         raise RuleError(f"missing premise: {law} has the period 1")
-    if not (order.is_Integer and order.is_positive) or (order > 1 and law.has(LAW)):
-        raise RuleError(f"missing premise: {law} has a coefficient of order {order}")
+    if not (order.is_Integer and order.is_positive):
+        raise RuleError(f"missing premise: {order} is the number of an order")
     _coefficients(steady, int(order), *premises)
 
 
@@ -118,8 +121,8 @@ class OrderEquation(Theorem):
 
 
 def _named(term: Term, *premises: Judgement) -> sp.Expr:
-    """Return the name of a coefficient, which one of the premises defines."""
-    for claim in (premise.claim for premise in premises):
+    """Return the name that a coefficient has at every time, by one of the premises."""
+    for claim in (premise.claim for premise in filter(lasts, premises)):
         if isinstance(claim, Equality) and claim.rhs == term:
             return claim.lhs
     kind = type(term).__name__.lower()

@@ -70,6 +70,10 @@ def ordered(rest=U_a, law=LAW, end=sp.S.Zero, speed=STEADY, ratio=RATIO, last=q)
     return first_order(eq(du, law), *limits, BOUNDED)
 
 
+def saturated(ratio):
+    return C * (2 + sp.tanh(sp.LambertW(ratio)))
+
+
 def by_no_load():
     """Return what FirstOrder has for a rate C + 1/(1 + U_a^2), and a ratio without U_a."""
     return (
@@ -95,6 +99,26 @@ def averaged(factor):
     drift, wave = (term_of(kind, 1, pressure) for kind in (Drift, Oscillation))
     names = defined(c_1, drift, ROUGHENS), defined(w_1, wave, ROUGHENS)
     return OrderEquation(sp.S.One)(eq(p, pressure), sine, *constants, *names)
+
+
+def named_waves():
+    *known, wave = expansion_premises()
+    v = sp.Function("v", real=True)(tau)
+    almost = Arithmetic(equal(v, w_1))(eq(v, w_1 + T * (du - C)), RATE)
+    return OrderEquation(sp.S.One)(*known, substitute(almost, wave))
+
+
+def second_order():
+    """Return the second order of a law that may turn like r^(3/2), whose second slopes cancel."""
+    _, *known, _, _ = expansion_premises()
+    step, slope = L / (sigma_c0 + f_c * u_c), sp.Subs(sp.diff(PHI(z), z), z, q)
+    pressure = 1 + PHI(q + step) - PHI(q - step) - 2 * step * slope
+    names = (
+        given(equal(symbol(f"{kind.letter}_{n}"), term_of(kind, n, pressure)))
+        for n in (1, 2)
+        for kind in (Drift, Oscillation)
+    )
+    return OrderEquation(sp.Integer(2))(eq(p, pressure), *known, *names, gt(f_c, 0))
 
 
 def wave_of_wave():
@@ -168,6 +192,8 @@ FAMILIES = (
         "a law with a kink": ("differentiable at the limit", U_a, C * sp.Abs(RATIO), 0, C * q),
         "another rate": ("at the limit", U_a, LAW, 0, C),
         "a steady rate of either sign": ("f_c", U_a, f_c * LAW, 0, f_c * STEADY),
+        # h_0 = 0: W is smooth, the formula of its slope is 0/0
+        "a slope that has no value": (r"Ne\(h_0", U_a, saturated(G), 0, saturated(h_0), G, h_0),
     }),
     Family(drifting, ((), t * (du - C * q) - U_a), {
         # u_c - C t ~ int U_a/T
@@ -243,6 +269,9 @@ FAMILIES = (
         "a pressure with the slope of a name": ("no rate", 1 + SLOPE * L / (u_c + q)),
         "a pressure with an integral": ("no rate",
             1 + sp.Integral(1 / (1 + q**2 + sp.cos(z)), (z, 0, b_0)) * L / (u_c + q)),
+        # it is not integrable over a cycle if U > q
+        "a pressure that is continuous at no peak": ("smooth enough", 1 + L / (u_c + q) / (
+            sp.Piecewise((1, U_a <= q), (0, True)) + sp.Piecewise((0, U_a <= q), (U_a / q - 1, True)))),
         "a pressure that varies with the phase": ("is the limit of",
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
@@ -260,10 +289,10 @@ FAMILIES = (
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(
                 eq(N, L**2 * (3 + h / sp.Abs(h)) / h**2))),
-        "half an order of a drift": ("of order 3/2",
+        "half an order of a drift": ("number of an order",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
         # phi may turn like |r - 1|^(3/2)
-        "a second order of any law": ("of order 2",
+        "a second order of any law": ("for order 2",
             lambda: defined(c_1, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),
         # it is 0/0 for b_0 = 0
         "a drift at any pace": ("the pace rho",
@@ -276,6 +305,9 @@ FAMILIES = (
         "the mean of the square of a wave": ("by the mean", mean_of_square),  # U^2 rho^2 > 0
         "an oscillation in time": ("a function of tau", lambda: oscillation_as(G)),
         "an oscillation for a clock": ("a function of tau", lambda: oscillation_as(z)),
+        # v = w_1 + 1 at rational tau has no rate
+        "a name for a wave where rates have values": ("a name of the oscillation", named_waves),
+        "a second order of any law, by no definition": ("for order 2", second_order),
         "half an order": ("number of an order",
             lambda: OrderEquation(sp.Rational(3, 2))(*expansion_premises())),
         "what remembers another start": ("is a new name",
