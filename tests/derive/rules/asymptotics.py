@@ -271,7 +271,8 @@ FAMILIES = (
             1 + sp.Integral(1 / (1 + q**2 + sp.cos(z)), (z, 0, b_0)) * L / (u_c + q)),
         # it is not integrable over a cycle if U > q
         "a pressure that is continuous at no peak": ("smooth enough", 1 + L / (u_c + q) / (
-            sp.Piecewise((1, U_a <= q), (0, True)) + sp.Piecewise((0, U_a <= q), (U_a / q - 1, True)))),
+            sp.Piecewise((1, U_a <= q), (0, True))
+            + sp.Piecewise((0, U_a <= q), (U_a / q - 1, True)))),
         "a pressure that varies with the phase": ("is the limit of",
             1 + sp.sin(2 * sp.pi * tau) / 2),
     }),
