@@ -35,7 +35,7 @@ from sympy.core.relational import Relational
 
 from .claims import Claim
 from .hypotheses import Hypothesis, Kind
-from .language import defined_by, fault, meant_by, names, typeset_name
+from .language import defined_by, fault, is_changed, meant_by, names, typeset_name
 from .note.model import CLOSURE, WEARING, subject
 from .reals import contradictory
 from .symbols import CLOCKS, QUANTITIES, symbol, t
@@ -214,6 +214,9 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
         raise RuleError(f"{kind.__name__} has fields that are not its own")
     if not all(type(premise) is Judgement and premise.is_made for premise in premises):
         raise RuleError("missing premise: a judgement that a rule made")
+    supposed = {h.relation for premise in premises for h in premise.hypotheses}
+    if any(map(is_changed, supposed.union(premise.relation for premise in premises))):
+        raise RuleError("missing premise: a judgement that was not changed")
     if len(premises) < len(rule.premise_names):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.premise_names)}")
     _require_language(*vars(rule).values())

@@ -10,6 +10,7 @@ Key results
     defined_by    the names that a definition introduces
     meant_by      the names in their meaning
     bound         the variables that one node binds: of an integral, a limit, a derivative
+    is_changed    whether a part of an expression was changed in place
     guessed       whether SymPy may decide the sign of an integral without proof
     certain       the parts that are defined wherever the whole is
     needs         the conditions for an expression to be defined, if its arguments are
@@ -42,6 +43,7 @@ from .laws import GENERAL
 from .note.model import FIELDS, WEARING
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
+_HASH = sp.Basic.__hash__
 _HEADS = frozenset(
     (
         *(sp.Add, sp.Mul, sp.Pow, sp.Abs, sp.Piecewise, ExprCondPair),
@@ -80,7 +82,8 @@ def fault(expr: sp.Basic) -> str | None:
     >>> fault(symbol("f_c") + 1), fault(sp.Symbol("f_c", positive=True))
     (None, 'f_c is not the f_c of the vocabulary')
     """
-    found = next(filter(None, map(_fault, _nodes(expr))), None)
+    found = f"{expr} was changed" if is_changed(expr) else None
+    found = found or next(filter(None, map(_fault, _nodes(expr))), None)
     found = found or next(filter(None, map(_leaves_domain, _nodes(expr))), None)
     if not found and any(isinstance(free, sp.Dummy) for free in expr.free_symbols):
         return f"{expr} has a name that others may have"
@@ -97,6 +100,12 @@ def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
         parts = [part for part in parts if part is not sp.oo and part is not -sp.oo]
     for part in parts:
         yield from _nodes(part)
+
+
+def is_changed(expr: sp.Basic) -> bool:
+    """Return whether a part was changed in place, after SymPy had stored its hash."""
+    parts = (node for node in sp.preorder_traversal(expr) if type(node).__hash__ is _HASH)
+    return any(hash((type(n).__name__, *n._hashable_content())) != hash(n) for n in parts)
 
 
 def _fault(node: sp.Basic) -> str | None:

@@ -17,7 +17,7 @@ from ..kernel import Conclusion, Judgement, RuleError
 from ..reals import holds, sign
 from ..zero import is_zero
 from .proving import continuity, facts_of, require, require_defined, smooth
-from .reading import inequality
+from .reading import exchanged, inequality
 from .theorem import Theorem
 
 
@@ -131,13 +131,13 @@ class Threshold(Theorem):
             raise RuleError(f"missing premise: {self.claim} is strict on both sides")
         positive = holds(sp.Gt(self.variable, 0), facts_of(premises))
         any_ = sp.Dummy(positive=True) if positive else sp.Dummy(real=True)
-        value = function.subs(self.variable, any_)
+        value = exchanged(function, self.variable, any_)
         require_defined(value, *premises)
         if positive:
             require(sp.Gt(point, 0), *premises)
         slope = sp.diff(value, any_)
         if point.has(self.variable) or not smooth(value) or sign(slope, facts_of(premises)) != 1:
             raise RuleError(f"missing premise: {function} increases with {self.variable}")
-        if not is_zero(function.subs(self.variable, point) - level):
+        if not is_zero(exchanged(function, self.variable, point) - level):
             raise RuleError(f"missing premise: the left side is {level} at {point}")
         return Conclusion(claim)

@@ -29,6 +29,7 @@ from .reading import (
     between,
     clocks,
     constant,
+    exchanged,
     field_of_rate,
     fields,
     growing,
@@ -129,7 +130,7 @@ class Passes(Theorem):
             expr = in_terms_of(expr, quantity, stand_in)
         back = expr
         for stand_in, quantity in reversed(meaning.items()):
-            back = back.subs(stand_in, quantity)
+            back = exchanged(back, stand_in, quantity)
         if not constant(expr) or not is_zero(back - rewritten):
             raise RuleError(f"missing premise: the limit of all that varies in {whole}")
         if not continuous(expr, ends, *premises):
@@ -141,7 +142,7 @@ class Passes(Theorem):
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
     """Write ``expr`` with ``name`` for ``quantity``, by eliminating the load or a field."""
-    expr = expr.subs(quantity, name)
+    expr = exchanged(expr, quantity, name)
     for field in sorted(fields(quantity), key=lambda f: (f.func != LOAD.func, str(f))):
         slope = sp.diff(quantity, field)
         if slope != 0 and expr.has(field) and not slope.has(field):

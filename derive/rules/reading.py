@@ -147,19 +147,41 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
     holds, inside a rate or a first zero.
     """
     binders = [node for node in sp.preorder_traversal(expr) if bound(node) and node != old]
-    touched = [node for node in binders if node.has(old) or node.subs(old, new) != node]
+    touched = [node for node in binders if node.has(old) or exchanged(node, old, new) != node]
     if not always and any(isinstance(node, (sp.Derivative, FirstZero, Term)) for node in touched):
         raise RuleError(f"missing premise: {old} = {new} at every time")
     taken = {v for node in touched for v in bound(node)}
     if not (clocks(old) | clocks(new)) - {t}:
         taken -= {t}
-    integrals = (node.subs(old, new) for node in binders if isinstance(node, sp.Integral))
-    if any(guessed(part) for node in integrals for part in node.atoms(sp.Integral)):
-        raise RuleError(f"missing premise: the sign of an integral for {old} = {new}")
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
         raise RuleError(f"missing premise: {old} = {new} for every {sp.Tuple(*taken)}")
-    return expr.subs(old, new)
+    result = exchanged(expr, old, new)
+    if touched and any(map(guessed, result.atoms(sp.Integral))):
+        raise RuleError(f"missing premise: the sign of an integral for {old} = {new}")
+    return result
+
+
+def exchanged(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
+    """Return an expression with another in all places of a part; of a sum or product, the part may
+    be some of its terms.
+
+    SymPy's ``subs`` is not used, as it does arithmetic with powers, for instance ``exp(3)`` in
+    ``2**x``, that is wrong.
+
+    >>> a, b, c = sp.symbols("a b c", real=True)
+    >>> exchanged(a * b * c + sp.exp(a + b), a * b, c), exchanged(2**a, sp.exp(a), b)
+    (c**2 + exp(a + b), 2**a)
+    """
+    if expr == old:
+        return new
+    parts = tuple(exchanged(part, old, new) for part in expr.args)
+    whole = expr.func(*parts) if parts != expr.args else expr
+    if isinstance(whole, (sp.Add, sp.Mul)) and isinstance(old, whole.func):
+        rest = [part for part in whole.args if part not in old.args]
+        if len(rest) + len(old.args) == len(whole.args):
+            return whole.func(new, *rest)
+    return whole
 
 
 def _slopes(expr: sp.Expr) -> set[sp.Basic]:

@@ -167,7 +167,18 @@ def test_an_expression_that_was_changed_in_place_is_found() -> None:
     relation = sp.Gt(q + L, 0, evaluate=False)
     made = Arithmetic(relation)()
     relation._args = (f_c + 7, sp.S.Zero)
-    assert replay_fault(made) == "a stored conclusion was changed"
+    assert replay_fault(made) == "no claim: f_c + 7 > 0 was changed"
+
+
+def test_an_expression_that_is_changed_in_place_for_a_while_is_no_premise() -> None:
+    relation = sp.Gt(f_c, -5)
+    premise = Arithmetic(relation)(assume(Hypothesis(sp.Gt(f_c, -4))))
+    honest, relation._args = relation._args, (f_c, sp.Integer(8))
+    with pytest.raises(RuleError, match="was not changed"):
+        Arithmetic(sp.Gt(f_c, 7))(premise)
+    with pytest.raises(RuleError, match="f_c > 8 was changed"):
+        Arithmetic(relation)(ROUGHENS)
+    relation._args = honest
 
 
 def test_a_judgement_that_rests_on_itself_is_found() -> None:

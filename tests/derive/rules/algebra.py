@@ -100,12 +100,12 @@ FAMILIES = (
         "nothing to insert": ("does not occur", SIDES, eq(b_0, q)),
         "a variable of integration": ("every value", integral(theta), eq(theta, b_0)),
         "the datum of a slope": ("every value", given(equal(SLOPE, h_0)), eq(f_c, 1)),
-        # b_0 = 1/2, not 1/4, for x = h_0 = q = 1
-        "capture of a power by an integral": ("for every|sign of",
-            eq(b_0, q**2 + sp.Integral(q**4 * x, (x, 0, 1))), eq(q**2, x)),
-        # G = u_c', but 0 at rational times
-        "a rate under a second one": ("at every time",
-            eq(T * sp.Derivative(u_c, (t, 2)), C - rate("u_c")), eq(rate("u_c"), G)),
+        # b_0 = 1/2, not 1/3, for x = q = 1
+        "capture of a power by an integral": ("for every",
+            eq(b_0, sp.Integral(q**2 * x, (x, 0, 1))), eq(q**2, x)),
+        # SymPy would find its sign by quadrature
+        "an integral without symbols": ("sign of",
+            eq(b_0, sp.Integral(theta * sp.exp(x), (x, 0, 1))), eq(theta, -1)),
         # theta = 1: G = 3, not 3/2
         "capture by an integral": ("for every", integral(b_0), eq(b_0, theta)),
         "capture by a slope": ("for every", sloped(), eq(u_cum, b_0)),  # d b_0/d f_c = 0
@@ -187,6 +187,11 @@ FAMILIES = (
         "|f_c| = f_c": ("no identity", sp.Eq(sp.Abs(f_c), f_c)),
         "log(x^2) = 2 log(x)": ("x_inf.* > 0", sp.Eq(sp.log(x_inf**2), 2 * sp.log(x_inf))),
         "W(x e^x) = x": ("no identity", sp.Eq(sp.LambertW(theta * sp.exp(theta)), theta)),
+        # SymPy's subs gives both
+        "a power of 2 by one of e": ("no identity", # b_0 = 1: 2 = 4.2
+            equal(2**b_0, q ** (1 / sp.log(2))), eq(sp.exp(b_0), q)),
+        "a power of 2 by one of 0": ("no identity", # f_c = 1
+            equal(2**f_c, 1), eq(sp.Pow(0, f_c), 0)),
         "zero is not one": ("no identity", equal(sp.log(f_c**2) - sp.log(f_c**2), 1)),
         "no equation": ("is an equality", sp.Ge(f_c, q)),
         # y = -1: imaginary
