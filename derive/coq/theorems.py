@@ -118,9 +118,13 @@ def _unbounded(step: Step) -> Values:
     for known in step.parents:
         if known.timed and not any(p.timed for p in known.statement.premises):
             proof = step.fact(known).proof.replace(known.name, known.name + elsewhere)
-            always.append((known.relation.xreplace({u: wear}), f"@{proof}"))
+            always.append((known.relation, f"@{proof}"))
     flat = rate.xreplace({u: wear, bound.relation.lts.args[0]: load})
-    return {"wear": wear, "load": load, "rate": flat, "bound": bound, "always": always}
+    above = (s for s in step.given if getattr(s.relation, "gts", None) == u)
+    return {
+        "wear": wear, "load": load, "rate": flat, "bound": bound, "always": always,
+        "least": next(above, None),
+    }  # fmt: skip
 
 
 def _squeezed(step: Step) -> Values:

@@ -27,13 +27,13 @@ from .cutoff_two_solids import arrest_depth_two_solids, sigma_stop, u_stop
 from .cutoff_two_solids import discriminant as whole
 from .regime_map import OUTGROWN, THIRD
 from .regimes import logarithmic_wear
-from .two_solids import TwoSolids, apart, sigma
+from .two_solids import TwoSolids, sigma
 from .validity import bound
 
 q, g, p_1, p_inf, T = symbols("q g p_1 p_inf T")
 K_a, K_c, H_a, H_c, p_max = symbols("K_a K_c H_a H_c p_max")
 h_0, U_mean, U_max, sigma_c0, N = symbols("h_0 U_mean U_max sigma_c0 N")
-p, sigma_a0 = symbols("p sigma_a0")
+p, sigma_a0, f_a, f_c, kappa = symbols("p sigma_a0 f_a f_c kappa")
 
 ORIGIN = (
     "two-solids",
@@ -59,6 +59,9 @@ log_load_factor = sp.Symbol("log_load_factor", real=True)
 """Logarithm of the mean over a cycle of exp(4 U_a/sigma_c0)."""
 
 
+APART = f_a * kappa * sigma_c0 - f_c * sigma_a0
+"""Zero if the roughnesses of the two solids keep their ratio, as when they vanish together."""
+
 OFFSET = (h_0 - U_mean) / q - g * p_1 / q**3
 """The limit of u_c (h/sigma - g/q), averaged over a cycle."""
 
@@ -78,7 +81,7 @@ def _geometry() -> tuple[Formula, ...]:
         Formula("closure_growth", (), gap, "growth of the closure per wear, g, Eq. (1) as printed"),
         Formula("closure_growth_opening", (), opening, "the same with the physical sign"),
         Formula("cross_roughness", (), cross, "half the slope of sigma^2 at no wear, p_1"),
-        Formula("apart", (), apart, "zero if the two roughnesses vanish at the same wear"),
+        Formula("apart", (), APART, "zero if the roughnesses of the two solids keep their ratio"),
         Formula("closure_ratio", (), g / q, "limit of h/sigma"),
         Formula("vanishing_wear", (), _vanishing(), "wear at which the roughness vanishes"),
         Formula("gap_at_peak", (u,), h_0 + g * u - U_max, "closure at the peak of the load"),
@@ -89,7 +92,7 @@ def _geometry() -> tuple[Formula, ...]:
 def _vanishing() -> sp.Expr:
     """Return the wear at which sigma vanishes when both roughnesses vanish together."""
     wear = -p_1 / q**2
-    squared = sigma**2 - (apart / q) ** 2
+    squared = sigma**2 - (APART / q) ** 2
     values = {s.claim.lhs: s.claim.rhs for s in TwoSolids().definitions}
     equal(squared.subs(symbol("u_c"), wear).subs(values), sp.S.Zero)
     return wear

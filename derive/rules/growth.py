@@ -13,7 +13,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 
 import sympy as sp
@@ -65,20 +65,29 @@ class Diverges(Theorem):
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
     """Return relations that bound a field by two constants; RuleError if there are none."""
-    parts = (p for f in facts_of(premises) for p in (f.args if isinstance(f, sp.And) else (f,)))
-    found = []
-    for small, large in (
-        (p.lts, p.gts) for p in parts if isinstance(p, (sp.Ge, sp.Gt, sp.Le, sp.Lt))
-    ):
+    orders = list(_orders(premises))
+    for small, large in orders:
         if small == sp.Abs(field) != field and constant(large):
             return (sp.Le(small, large, evaluate=False),)
-        if small == field and constant(large):
-            found.append((1, sp.Le(field, large, evaluate=False)))
-        if large == field and constant(small):
-            found.append((0, sp.Ge(field, small, evaluate=False)))
-    if {side for side, _ in found} != {0, 1}:
+    lower = _lower_bounds(field, orders)
+    upper = (large for small, large in orders if small == field and constant(large))
+    found = *lower, *(sp.Le(field, large, evaluate=False) for large in upper)
+    if not len(found) > len(lower) > 0:
         raise RuleError(f"missing premise: {field.func} is bounded")
-    return tuple(relation for _, relation in found)
+    return found
+
+
+def _orders(premises: tuple[Judgement, ...]) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """Yield the smaller and the larger side of each inequality in the facts."""
+    for fact in facts_of(premises):
+        for part in sp.And.make_args(fact):
+            if isinstance(part, (sp.Ge, sp.Gt, sp.Le, sp.Lt)):
+                yield part.lts, part.gts
+
+
+def _lower_bounds(field: sp.Expr, orders: Iterable[tuple[sp.Expr, sp.Expr]]) -> list[sp.Basic]:
+    found = (small for small, large in orders if large == field and constant(small))
+    return [sp.Ge(field, small, evaluate=False) for small in found]
 
 
 class PeriodicBound(Rule):
@@ -130,7 +139,7 @@ class Unbounded(Theorem):
     """``du/dt = F(u, a)`` with F positive and continuous, and bounded fields a: ``u -> oo``.
 
     If u, which increases, were bounded, u and a would stay in a compact set, on which F has a
-    positive minimum.  So F must be positive at the bounds of a, too.
+    positive minimum.  So F must be positive at the bounds of a and at a lower bound of u, too.
     """
 
     words = (
@@ -144,6 +153,7 @@ class Unbounded(Theorem):
         law, *facts = premises
         u, function = rate_law(law)
         closed = [r for f in fields(function) - {u} for r in bounds(f, *premises)]
+        closed += _lower_bounds(u, _orders(premises))
         always = [f for f in facts if all(constant(h.relation) for h in f.hypotheses)]
         anywhere = [fact for fact in facts_of(always) if fields(fact) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)

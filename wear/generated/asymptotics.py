@@ -52,7 +52,7 @@ def cross_roughness(*, sigma_a0: Real, sigma_c0: Real, f_a: Real, f_c: Real, kap
 
 
 def apart(*, sigma_a0: Real, sigma_c0: Real, f_a: Real, f_c: Real, kappa: Real) -> Real:
-    """Zero if the two roughnesses vanish at the same wear."""
+    """Zero if the roughnesses of the two solids keep their ratio."""
     return f_a * kappa * sigma_c0 - f_c * sigma_a0
 
 

@@ -143,22 +143,27 @@ Proof.
   exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
 Qed.
 
-(** A rate F(u, a) that is at least F(u, w), which is positive and smooth in u: were u bounded,
-    then F(u, w) would have a least value on what u takes. *)
-Lemma unbounded (u a : R -> R) (F : R -> R -> R) (w : R) : (forall t, 0 <= t -> ex_derive u t) ->
-  (forall t, 0 <= t -> Derive u t = F (u t) (a t)) ->
-  (forall t, 0 <= t -> F (u t) w <= F (u t) (a t)) -> (forall x, 0 < F x w) ->
-  (forall x, ex_derive (fun x => F x w) x) -> diverges u.
+(** A rate F(u, a) that is at least F(u, w), which is positive and smooth in all u with P, as long
+    as P does not end when u grows: were u bounded, then F(u, w) would have a least value on what u
+    takes. *)
+Lemma unbounded (u a : R -> R) (F : R -> R -> R) (w : R) (P : R -> Prop) :
+  (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (u t) (a t)) ->
+  (forall t, 0 <= t -> F (u t) w <= F (u t) (a t)) -> (forall t, 0 <= t -> P (u t)) ->
+  (forall x y, P x -> x <= y -> P y) -> (forall x, P x -> 0 < F x w) ->
+  (forall x, P x -> ex_derive (fun x => F x w) x) -> diverges u.
 Proof.
-  rewrite diverges_iff; intros Hu Hr Hw Hp Hc m; set (G := fun x => F x w) in *.
-  destruct (continuity_ab_min G (u 0) (Rmax (u 0) m)) as [x [Hx _]].
+  rewrite diverges_iff; intros Hu Hr Hw HP Up Hp Hc m; set (G := fun x => F x w) in *.
+  assert (P0 : P (u 0)) by (apply HP; lra).
+  destruct (continuity_ab_min G (u 0) (Rmax (u 0) m)) as [x [Hx Bx]].
   - apply Rmax_l.
-  - intros; apply continuity_pt_filterlim, (ex_derive_continuous G), Hc.
+  - intros y Hy; apply continuity_pt_filterlim, (ex_derive_continuous G), Hc, (Up (u 0)); tauto.
   - assert (I : forall s t, 0 <= s <= t -> u s <= u t).
     { intros s t [Hs [Ht | ->]]; [| lra].
       destruct (mean_value u s t) as [c [H E]]; [lra | assumption |].
-      specialize (Hr c); specialize (Hw c); specialize (Hp (u c)); nra. }
-    assert (P : 0 < G x) by apply Hp; exists (Rmax 0 ((m - u 0) / G x)); intros t Ht.
+      assert (Hc' : 0 <= c) by lra.
+      specialize (Hr c Hc'); specialize (Hw c Hc'); specialize (Hp (u c) (HP c Hc')); nra. }
+    assert (Q0 : 0 < G x) by (apply Hp, (Up (u 0)); tauto).
+    exists (Rmax 0 ((m - u 0) / G x)); intros t Ht.
     pose proof (Rmax_l 0 ((m - u 0) / G x)); pose proof (Rmax_r 0 ((m - u 0) / G x)).
     assert (Q : m - u 0 < t * G x) by (apply Rlt_div_l; lra).
     destruct (Rlt_or_le m (u t)) as [| L]; [assumption | exfalso].

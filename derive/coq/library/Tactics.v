@@ -43,11 +43,9 @@ Proof.
   pose proof (pow2_ge_0 (b + a * x)); nra.
 Qed.
 
-Lemma positive_cofactor (a x y z : R) : 0 < a -> z <> 0 -> a * x = y ^ 2 + z ^ 2 -> 0 < x.
-Proof.
-  intros Ha Hz E; apply (Rmult_lt_reg_l a); [assumption |].
-  pose proof (pow2_ge_0 y); pose proof (pow2_gt_0 z Hz); lra.
-Qed.
+(** A sum of which one part is positive unless u vanishes, and the other one if it does. *)
+Lemma square_and_rest (b u q s : R) : 0 <= u -> 0 < s -> 0 < b -> 0 < b * u + (- (q * u) + s) ^ 2.
+Proof. intros [Hu | <-] Hs Hb; [pose proof (pow2_ge_0 (- (q * u) + s)) |]; nra. Qed.
 
 (** The order of functions that increase on D decides a threshold. *)
 Lemma threshold (D : R -> Prop) (F : R -> R) (x s e : R) :
@@ -101,7 +99,9 @@ with not_zero :=
     let E := fresh in intro E; apply D; field_simplify_eq; [lra | repeat split; assumption] end
 with positive_part :=
   match goal with
-  | Z : ?z <> 0, E : ?a * ?x = ?y ^ 2 + ?z ^ 2 |- 0 < ?x => apply (positive_cofactor a x y z); positive
+  | E : ?x = _ + (- (_ * _) + _) ^ 2 |- 0 < ?x => rewrite E; positive_part
+  | |- 0 < ?b * ?u + (- (_ * ?u) + _) ^ 2 => apply square_and_rest; positive
+  | |- 0 < ?u * ?b + (- (_ * ?u) + _) ^ 2 => rewrite (Rmult_comm u b); apply square_and_rest; positive
   | |- 0 < ?a * ?b => apply Rmult_lt_0_compat; positive
   | |- 0 < ?a / ?b => apply Rdiv_lt_0_compat; positive
   | |- 0 < / ?a => apply Rinv_0_lt_compat; positive
@@ -128,6 +128,10 @@ with positive_part :=
   | |- 0 < _ => solve [auto | nra]
   | |- _ => nra
   end.
+
+(** The signs of sums of which one part is a square. *)
+Ltac positive_sums :=
+  repeat match goal with E : ?x = _ + (- (_ * _) + _) ^ 2 |- _ => assert (0 < x) by positive; clear E end.
 
 (** The goal by arithmetic alone, from the facts of the context. *)
 Ltac bounds :=

@@ -111,8 +111,12 @@ FAMILIES = (
     }),
     Family(lambda speed, *facts: unbounded(eq(du, speed), *facts), (
         BENDING, (C * (1 + sigma / h_star), le(sigma, h_star), ROUGH), C * q / (1 + f_c**2) ** 2,
-        (C * sp.exp(-U_a / h_star), BOUNDED),
+        (C * sp.exp(-U_a / h_star), BOUNDED), (C * (1 + u_c / q), ge(u_c, 0)),
     ), {
+        # u_c = -q
+        "a rate that is positive for positive wear": ("positive and continuous", C * (1 + u_c / q)),
+        "a rate with a bound of the wear that moves": ("positive and continuous",
+            C * (1 + u_c / q), ge(u_c, -t * C)),
         # u_c < C T
         "a rate that fades with time": ("positive and continuous", C / (1 + t / T) ** 2),
         "a rate that fades with tau": ("positive and continuous", C / (1 + tau) ** 2),
