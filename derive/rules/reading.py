@@ -17,9 +17,9 @@ from sympy.core.function import AppliedUndef
 
 from ..claims import Claim, Conjunction, Drift, Equality, FirstZero, Inequality, Limit, Term
 from ..hypotheses import Hypothesis
-from ..kernel import Judgement, RuleError
-from ..language import bound, guessed
-from ..reals import LAW
+from ..kernel import Judgement, RuleError, listed
+from ..language import bound, certain, guessed, needs
+from ..reals import LAW, holds
 from ..symbols import CLOCKS, symbol, t
 
 C = TypeVar("C", bound=Claim)
@@ -151,7 +151,7 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
     if not always and any(isinstance(node, (sp.Derivative, FirstZero, Term)) for node in touched):
         raise RuleError(f"missing premise: {old} = {new} at every time")
     taken = {v for node in touched for v in bound(node)}
-    if not (clocks(old) | clocks(new)) - {t}:
+    if old not in taken and not (clocks(old) | clocks(new)) - {t}:
         taken -= {t}
     of_data = any(isinstance(node, sp.Derivative) and bound(node) != {t} for node in touched)
     if of_data or taken & (old.free_symbols | new.free_symbols):
@@ -176,11 +176,26 @@ def exchanged(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     if expr == old:
         return new
     parts = tuple(exchanged(part, old, new) for part in expr.args)
-    whole = expr.func(*parts) if parts != expr.args else expr
+    whole = _rebuilt(expr, parts) if parts != expr.args else expr
     if isinstance(whole, (sp.Add, sp.Mul)) and isinstance(old, whole.func):
         rest = [part for part in whole.args if part not in old.args]
         if len(rest) + len(old.args) == len(whole.args):
             return whole.func(new, *rest)
+    return whole
+
+
+def _rebuilt(expr: sp.Basic, parts: tuple[sp.Basic, ...]) -> sp.Basic:
+    """Return an expression with other parts, which has a value where it needs one.
+
+    RuleError if SymPy writes a root of a product as roots of its factors that need not exist.
+    """
+    whole = expr.func(*parts)
+    if isinstance(expr, sp.Pow) and not parts[1].is_Integer and whole.args != parts:
+        needed = frozenset(needs(sp.Pow(*parts, evaluate=False)))
+        goals = {goal for part in certain(whole) for goal in needs(part)}
+        goals -= {goal for known in parts for part in certain(known) for goal in needs(part)}
+        if not all(holds(goal, needed) for goal in goals):
+            raise RuleError(f"missing premise: {listed(map(str, goals))}, as a part of {whole}")
     return whole
 
 

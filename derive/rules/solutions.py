@@ -34,6 +34,7 @@ from .proving import (
 from .reading import (
     constant,
     equality,
+    exchanged,
     fields,
     one_integral,
     rate_law,
@@ -127,9 +128,9 @@ class ByParts(Theorem):
         require_integrands(sp.Tuple(*between), *premises)
         if not smooth(self.primitive, s) or not is_zero(integral.function - slope - self.rest):
             raise RuleError(f"missing premise: {self.primitive} has the derivative of {given.rhs}")
-        first, last = (self.primitive.subs(s, end) for end in ends)
+        first, last = (exchanged(self.primitive, s, end) for end in ends)
         left = sp.Integral(self.rest, limits) if self.rest != 0 else self.rest
-        value = replaced(given.rhs, integral, last - first + left)
+        value = replaced(given.rhs, integral, last - first + left, always=False)
         return Conclusion(Equality(given.lhs, value), gives=(value,))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:

@@ -58,6 +58,7 @@ v = sp.Function("v", real=True)(tau)
 WEARS, STEADY = eq(G, u_c), given(Continuous(p))
 SIDES, WORN_AT = eq(h, u_a), u_c.subs(t, sigma)
 FALLING = lt(f_c, 0)
+CLOCK = sp.Function("X", nonnegative=True)(t)
 NAMED = assume(supposed(equal(G, b_0), Kind.DEFINITION))
 TRIVIAL = sp.Ge(h_0, 0, evaluate=False)
 REPEATING = assume(PERIODIC)
@@ -71,6 +72,10 @@ OVER_ZERO = equal((h - u_a) / (u_c - h_0), 1)
 
 def under(body):
     return sp.Integral(body, (theta, 0, L))
+
+
+def over_a_period(body):
+    return sp.Integral(body, (t, 0, T))
 
 
 def called(relation, kind):
@@ -103,6 +108,10 @@ FAMILIES = (
         # b_0 = 1/2, not 1/3, for x = q = 1
         "capture of a power by an integral": ("for every",
             eq(b_0, sp.Integral(q**2 * x, (x, 0, 1))), eq(q**2, x)),
+        # h_0 = 0: G = 0
+        "a root of a product": ("b_0 >= 0", eq(G, sp.sqrt(x_inf)), eq(x_inf, h_0 * b_0)),
+        "a root of what is negative": ("-1 >= 0|False",
+            eq(G, sp.cbrt(x_inf)), eq(x_inf, -h_0)),
         # SymPy would find its sign by quadrature
         "an integral without symbols": ("sign of",
             eq(b_0, sp.Integral(theta * sp.exp(x), (x, 0, 1))), eq(theta, -1)),
@@ -172,6 +181,10 @@ FAMILIES = (
         (OVER_ZERO, eq(u_c, h_0 + h - u_a), ne(u_c, h_0)),  # h = u_a
     ), {
         "a bound inserted as an equation": ("no identity", equal(u_a, h_0), le(u_a, h_0)),
+        # u_c = C t, u_a = G = t
+        "another name of time under an integral": ("for every",
+            equal(over_a_period(u_c), C * u_a * over_a_period(1)),
+            eq(t, CLOCK), eq(u_c.subs(t, CLOCK), C * t), eq(u_a.subs(t, CLOCK), t)),
         # theta = 1: 1/2, not 1/3
         "a limit inserted under an integral": ("for every",
             equal(under(theta * forever(G)), under(theta**2)), tends(G, theta)),

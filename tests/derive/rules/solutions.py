@@ -37,6 +37,7 @@ u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
 p_max, theta, x_inf, tau, u_stop = symbols("p_max theta x_inf tau u_stop")
 p_s, u_s = symbols("p_s u_s")
+Q = sp.Rational(3, 2)
 x, z = sp.Symbol("x", positive=True), sp.Symbol("z", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
@@ -124,6 +125,14 @@ FAMILIES = (
         "a primitive that jumps, whose integral has a value": ("Ne", lambda: ByParts(JUMPS)(
             eq(G, sp.Integral(sp.diff(JUMPS, u_s), (u_s, x_inf, theta))),
             eq(h, sp.Integral(JUMPS, (u_s, x_inf, theta))))),
+        # h_0 = 0, b_0 = -1: 0
+        "a root of a product at an end": ("b_0 >= 0", lambda: ByParts((u_s - theta) ** Q)(
+            eq(G, sp.Integral(Q * sp.sqrt(u_s - theta), (u_s, theta, theta + b_0 * h_0))),
+            ge(b_0 * h_0, 0))),
+        # G = L, but -L at t = T/3, where the integral has no value
+        "an integral that has a value at almost every time": ("at every time",
+            lambda: ByParts(-1 / u_s)(eq(L, FirstZero((C - sp.Integral(u_s**-2, (u_s, q, G))) * (T - t), t)),
+            Arithmetic(sp.Gt(G, 0))(eq(G, T * rate("u_a")), gt(rate("u_a"), 0)))),
         "an integral over time by parts": ("over time", lambda: ByParts(t**2 / 2)(
             eq(G, sp.Integral(t, (t, 0, T))))),
         # u_c = -1/2
