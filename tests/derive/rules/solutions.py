@@ -130,8 +130,8 @@ FAMILIES = (
             eq(G, sp.Integral(Q * sp.sqrt(u_s - theta), (u_s, theta, theta + b_0 * h_0))),
             ge(b_0 * h_0, 0))),
         # G = L, but -L at t = T/3, where the integral has no value
-        "an integral that has a value at almost every time": ("at every time",
-            lambda: ByParts(-1 / u_s)(eq(L, FirstZero((C - sp.Integral(u_s**-2, (u_s, q, G))) * (T - t), t)),
+        "an integral that has a value at almost every time": ("at every time", lambda: ByParts(
+            -1 / u_s)(eq(L, FirstZero((C - sp.Integral(u_s**-2, (u_s, q, G))) * (T - t), t)),
             Arithmetic(sp.Gt(G, 0))(eq(G, T * rate("u_a")), gt(rate("u_a"), 0)))),
         "an integral over time by parts": ("over time", lambda: ByParts(t**2 / 2)(
             eq(G, sp.Integral(t, (t, 0, T))))),
