@@ -24,7 +24,7 @@ _NOT_PLAIN = (sp.Integral, sp.Limit, sp.Subs, sp.Sum)
 
 def is_zero(expr: sp.Expr) -> bool:
     """Return True when exact rewriting reduces ``expr`` to 0; False proves nothing."""
-    if expr == 0:
+    if expr == 0 or _expand(expr) == 0:  # most often it is the same, written otherwise
         return True
     if not expr.has(*_NOT_PLAIN):
         expr = _fields_as_symbols(expr)
