@@ -55,9 +55,10 @@ _HEADS = frozenset(
     )
 )
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS | EXTREMES
-_FACES = frozenset(quantity.latex.replace(" ", "") for quantity in QUANTITIES.values())
+_MARKS = str.maketrans("", "", " {}")
+_FACES = frozenset(quantity.latex.translate(_MARKS) for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
-    *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o"),
+    *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o", "e", "W"),
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
@@ -69,6 +70,7 @@ _TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
 """Functions that have a value at every real argument."""
 _CYCLE = (symbol("tau"), symbol("rho"))
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+_BESSEL = re.compile(r"I_?[0-9]+")
 _SIGNS = [{domain: True} for domain in ("real", "positive", "nonnegative")]
 _DOMAINS = [sp.Dummy(**domain).assumptions0 for domain in _SIGNS]
 _RANGES = [sp.Function("any", **domain)._kwargs for domain in _SIGNS]
@@ -125,6 +127,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} is a power of e: write exp"
     if not all(variable.is_Symbol for variable in bound(node)):
         return f"{node} is by no variable"
+    if kind is sp.Derivative and len(set(node.variables)) > 1:
+        return f"{node} is by several variables"
     if kind is sp.Subs and not (node.expr.is_Derivative and isinstance(node.expr.expr, _LAW)):
         return f"{node} is no slope of the contact law"
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
@@ -212,16 +216,22 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
         same = node.func is known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
     fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.func._kwargs in _RANGES
-    known = name in _WORDS and node.func not in _FUNCTIONS
+    known = (name in _WORDS or _is_function(name)) and node.func not in _FUNCTIONS
     if not fits or known or not _NAME.fullmatch(name) or not _shows(name):
         return f"{name} is no real quantity"
     return None
 
 
+@cache
+def _is_function(name: str) -> bool:
+    """Return whether a name is that of a function of SymPy, or of a Bessel function in print."""
+    return isinstance(getattr(sp, name, None), sp.FunctionClass) or bool(_BESSEL.fullmatch(name))
+
+
 def _shows(name: str) -> bool:
     """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary."""
     shown = typeset_name(name)
-    return shown not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
+    return shown.translate(_MARKS) not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 
 
 @cache

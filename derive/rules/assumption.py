@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 
 import sympy as sp
@@ -120,9 +121,11 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
     expr = inserted(now, tuple(filter(lasts, premises)))
     rates = {field: sp.Derivative(field, t) for field in fields(expr)}
-    change = inserted(sp.Add(*(sp.diff(expr, f) * rate for f, rate in rates.items())), premises)
+    slopes = sp.Tuple(*(sp.diff(expr, field) for field in rates))
+    change = inserted(sp.Add(*map(operator.mul, slopes, rates.values())), premises)
     varies = clocks(expr) or any(d.has(t) for d in expr.atoms(sp.Derivative))
     unknown = [*undefined(sp.Tuple(*rates.values()), *premises)]
+    unknown += undefined(slopes, *premises, always=True)
     jumps = bool(rates) and not smooth(expr, *rates)
     if not clocks(name) and (varies or unknown or jumps or not is_zero(change)):
         raise RuleError(f"missing premise: {now} is constant")

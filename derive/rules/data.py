@@ -53,13 +53,14 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
 
 def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
     """Return the data in a relation, directly or by defined names: all, if a name is of fields or
-    has no definition, since that may follow."""
+    has no value by its definition, since that may follow."""
     about = {name for name, _ in names(relation)}
     for _ in definitions:
         defining = (names(known) for known in definitions if about & defined_by(known))
         about = about.union(name for group in defining for name, _ in group)
     of_fields = any(functions(known) for known in definitions if about & defined_by(known))
-    told = DATA.union(CLOCKS, *map(defined_by, definitions))
+    explicit = (known for known in definitions if known.args[0].is_Symbol)
+    told = DATA.union(CLOCKS, *map(defined_by, explicit))
     return DATA if of_fields or not about <= told else about & DATA
 
 

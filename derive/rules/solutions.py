@@ -55,7 +55,7 @@ class Follows(Theorem):
 
     def prove(self, *premises: Judgement) -> Conclusion:
         given, facts = equality(premises[0]), lasting_facts(premises)
-        p = sp.Dummy("p", positive=True)
+        p = sp.Dummy("p", nonnegative=True)
         value = given.rhs.xreplace({PRESSURE: p})
         moving = {unknown: unknown for unknown in (p, *fields(value))}
         still = value.xreplace({unknown: sp.Dummy(real=True) for unknown in moving})

@@ -117,6 +117,11 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("xabs", real=True), "no real quantity"),  # looks like |x|, and may be -1
     (sp.Symbol("hprime", real=True), "no real quantity"),  # looks like the rate of h
     (sp.Symbol("phi", real=True), "no real quantity"),
+    (sp.Symbol("h0", real=True), "no real quantity"),  # looks like h_0
+    (sp.Symbol("e", real=True), "no real quantity"),
+    (sp.Function("cosh", real=True)(t), "no real quantity"),
+    (sp.Function("I_0", real=True)(t), "no real quantity"),
+    (sp.Derivative(b_0, f_c, h_0), "by several variables"),
     (sp.Symbol("o", real=True), "no real quantity"),
     (sp.Symbol("true", real=True), "no real quantity"),
     (sp.Function("exp", real=True)(t), "no real quantity"),

@@ -344,6 +344,9 @@ FAMILIES = (
         # U_a jumps from 0 to 2 L
         "the sign of a field that jumps": ("is constant", b_0,
             (U_a - L) / sp.sqrt(U_a**2 - 2 * L * U_a + L**2)),
+        # h = 0, u_c = t: the root has no slope there
+        "what is constant as long as a root has a slope": ("is constant", theta,
+            u_c + sp.sqrt(L * h), eq(rate("h"), -2 * sp.sqrt(h / L) * rate("u_c")), ge(h, 0)),
         "what is constant wherever wear has a rate": ("at every time", b_0, G, ALMOST,
             eq(u_c, h_0)),
         # sqrt(t/T) has no mean square of its rate

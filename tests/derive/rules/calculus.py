@@ -76,6 +76,11 @@ def said(relation, kind):
     return assume(supposed(relation, kind))
 
 
+def valued(name, meaning):
+    """Return that a name is L, beside a definition that it occurs in."""
+    return Insert(equal(name, L))(eq(name, L), said(meaning, Kind.DEFINITION))
+
+
 def tied(*ties):
     """Return u_cum = f_c h_0, after h_0 = f_c L was inserted."""
     value = Arithmetic(equal(h_0, f_c * L))(*ties)
@@ -301,6 +306,11 @@ FAMILIES = (
         # |U_a| <= U at no other f_c than 1/c, where h = c sigma
         # u_cum = L in one bearing: with u_cum = h_0 f_c the slope is h_0
         "a name that has a value": ("may vary", equal(SLOPE, 0), eq(u_cum, L)),
+        "a name that has a value beside a new one": ("may vary", equal(SLOPE, 0),
+            valued(u_cum, equal(u_cum + b_0, u_cum + h_0))),
+        # theta = 1 + T (h_0 - f_c L)
+        "a name that is zero or has any value": ("may vary", equal(sp.Derivative(theta, T), 0),
+            valued(theta, equal(theta * (f_c * L - h_0), 0)), T),
         "a name that equals one without a definition": ("may vary", equal(SLOPE, 0),
             beside_wear(eq(theta, f_c))),
         # with theta = L f_c it is the slope at one value of f_c

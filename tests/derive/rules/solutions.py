@@ -133,6 +133,9 @@ FAMILIES = (
         "an integral that has a value at almost every time": ("at every time", lambda: ByParts(
             -1 / u_s)(eq(L, FirstZero((C - sp.Integral(u_s**-2, (u_s, q, G))) * (T - t), t)),
             Arithmetic(sp.Gt(G, 0))(eq(G, T * rate("u_a")), gt(rate("u_a"), 0)))),
+        # p is 0 or p_max
+        "a root beside no pressure": ("Invalid|only root",
+            lambda: follows(eq(p, p_max * (1 - sp.Pow(0, p))))),
         "an integral over time by parts": ("over time", lambda: ByParts(t**2 / 2)(
             eq(G, sp.Integral(t, (t, 0, T))))),
         # u_c = -1/2
