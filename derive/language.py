@@ -14,7 +14,6 @@ Key results
     guessed       whether SymPy may decide the sign of an integral without proof
     certain       the parts that are defined wherever the whole is
     needs         the conditions for an expression to be defined, if its arguments are
-    implied_by    the relations that hold wherever an expression is defined
 """
 
 from __future__ import annotations
@@ -28,6 +27,7 @@ from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
+from sympy.printing.latex import accepted_latex_functions
 
 from .claims import (
     Continuous,
@@ -58,6 +58,7 @@ _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS | EXTREMES
 _MARKS = str.maketrans("", "", " {}")
 _FACES = frozenset(quantity.latex.translate(_MARKS) for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
+    *accepted_latex_functions,
     *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o", "e", "W"),
 }
 _LAW = GENERAL.phi.func
@@ -125,6 +126,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has no {_PARTS[kind]} parts"
     if kind is sp.Pow and node.base is sp.E:
         return f"{node} is a power of e: write exp"
+    if kind is sp.Pow and not (node.exp.is_Rational or node.base.is_positive):
+        return f"{node} is a power of what may be zero"
     if not all(variable.is_Symbol for variable in bound(node)):
         return f"{node} is by no variable"
     if kind is sp.Derivative and len(set(node.variables)) > 1:
@@ -216,22 +219,17 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
         same = node.func is known.func if node.args else node == known
         return None if same else f"{name} is not the {name} of the vocabulary"
     fits = node.assumptions0 in _DOMAINS if node.is_Symbol else node.func._kwargs in _RANGES
-    known = (name in _WORDS or _is_function(name)) and node.func not in _FUNCTIONS
+    known = (name in _WORDS or _BESSEL.fullmatch(name)) and node.func not in _FUNCTIONS
     if not fits or known or not _NAME.fullmatch(name) or not _shows(name):
         return f"{name} is no real quantity"
     return None
 
 
-@cache
-def _is_function(name: str) -> bool:
-    """Return whether a name is that of a function of SymPy, or of a Bessel function in print."""
-    return isinstance(getattr(sp, name, None), sp.FunctionClass) or bool(_BESSEL.fullmatch(name))
-
-
 def _shows(name: str) -> bool:
     """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary."""
     shown = typeset_name(name)
-    return shown.translate(_MARKS) not in _FACES and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
+    unlike = shown.translate(_MARKS) not in _FACES
+    return unlike and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 
 
 @cache
@@ -323,14 +321,6 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
         return (sp.Ne(expr.args[0], 0),)
     partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
     return (unknown,) if partial and not isinstance(expr, AppliedUndef) else ()
-
-
-def implied_by(expr: sp.Basic) -> tuple[sp.Basic, ...]:
-    """Return the relation that holds wherever an expression is defined.
-
-    There is none for a power with a symbolic exponent, which may be defined for any base.
-    """
-    return () if isinstance(expr, sp.Pow) and not expr.exp.is_Rational else needs(expr)
 
 
 def is_slope_of_law(expr: sp.Basic) -> bool:

@@ -25,7 +25,7 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from .claims import HasValue
-from .language import certain, implied_by, is_slope_of_law
+from .language import certain, is_slope_of_law, needs
 from .laws import GENERAL
 
 LAW = GENERAL.phi.func
@@ -97,7 +97,7 @@ _text = cache(str)
 def _supposed(fact: sp.Basic) -> frozenset[sp.Basic]:
     """Return what holds wherever a fact is defined."""
     parts = () if fact.has(HasValue) else certain(fact)
-    return frozenset(relation for part in parts for relation in implied_by(part))
+    return frozenset(relation for part in parts for relation in needs(part))
 
 
 def _relevant(goal: sp.Basic, facts: frozenset[sp.Basic]) -> frozenset[sp.Basic]:

@@ -27,7 +27,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from ..claims import Asymptotic, Continuous, FirstZero, HasValue, Limit, Property, Term
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
-from ..language import bound, bound_in, certain, implied_by, needs
+from ..language import bound, bound_in, certain, needs
 from ..laws import r
 from ..note.model import WEARING
 from ..reals import LAW, holds, sign
@@ -62,7 +62,7 @@ def facts_of(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
 
 def _said(premises: Collection[Judgement]) -> frozenset[sp.Basic]:
     claims = (p.relation for p in premises if not isinstance(p.claim, Asymptotic))
-    return frozenset(claims).union(*map(implied_by, _parts(premises)))
+    return frozenset(claims).union(*map(needs, _parts(premises)))
 
 
 def _supposed(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
@@ -139,8 +139,6 @@ def _unbroken(expr: sp.Expr, fields: Collection[sp.Basic]) -> bool:
     if expr in _MOVES or expr in fields or constant(expr):
         return True
     composed = bool(expr.args) and isinstance(expr, _CONTINUOUS)
-    if isinstance(expr, sp.Pow) and not constant(expr.exp):
-        composed &= bool(expr.base.is_positive)  # 0^0
     return composed and all(_unbroken(part, fields) for part in expr.args)
 
 
@@ -202,7 +200,7 @@ def undefined(
     those that follow at every time.
     """
     ends = {part for whole in near for part in certain(whole)}
-    facts = (lasting_facts if always else facts_of)(premises).union(*map(implied_by, ends))
+    facts = (lasting_facts if always else facts_of)(premises).union(*map(needs, ends))
     needed = _needed(expr, _parts(premises, always) | ends, lasting_facts(premises))
     return (goal for goal in needed if not holds(goal, facts))
 

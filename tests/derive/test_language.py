@@ -89,6 +89,8 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (with_a_slope_of_its_own(), "of no kind"),
     (sp.log(h_0 / q, 2, evaluate=False), "no 1 parts"),
     (sp.Pow(sp.E, f_c, evaluate=False), "power of e"),
+    (sp.Pow(0, f_c), "may be zero"),
+    (h_0**f_c, "may be zero"),
     (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "the pace rho"),
     (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "holds N fixed"),
     (Drift(sp.S.One, 2 + h_0 / y, y, x, symbol("rho")), "the phase tau"),

@@ -203,8 +203,6 @@ FAMILIES = (
         # SymPy's subs gives both
         "a power of 2 by one of e": ("no identity", # b_0 = 1: 2 = 4.2
             equal(2**b_0, q ** (1 / sp.log(2))), eq(sp.exp(b_0), q)),
-        "a power of 2 by one of 0": ("no identity", # f_c = 1
-            equal(2**f_c, 1), eq(sp.Pow(0, f_c), 0)),
         "zero is not one": ("no identity", equal(sp.log(f_c**2) - sp.log(f_c**2), 1)),
         "no equation": ("is an equality", sp.Ge(f_c, q)),
         # y = -1: imaginary
@@ -318,7 +316,6 @@ FAMILIES = (
         # f_c = -1/10
         "W has a value above zero alone": ("f_c", sp.Ge(f_c, 0), eq(G, sp.LambertW(f_c))),
         # h_0 = 0, f_c = 1
-        "a power has a value above zero alone": ("h_0 > 0", sp.Gt(h_0, 0), eq(G, h_0**f_c)),
         "a pin that wears and is as it was": ("contradict", TRIVIAL, PIN_WEARS,
             eq(2 * u_a - h_0, h_0)),
         "data of which there are none": ("contradict", TRIVIAL, gt(f_c**2, 1),

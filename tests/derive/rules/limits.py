@@ -183,10 +183,10 @@ FAMILIES = (
         (2 * u_c - 2 * C * t, 2 * h_0, tends(u_c - C * t, h_0)),
         ((u_c**2 - h**2) / (u_c - h) - 2 * h, theta, tends(u_c - h, theta), ne(u_c, h)),
         (sp.log(G), sp.log(q), tends(G, q), gt(G, 0)),
-        (1 / (1 + T / (f_c * t)), 1, AT_LAST, ROUGHENS), (h_0 ** (T / t), 1, AT_LAST, gt(h_0, 0)),
+        (1 / (1 + T / (f_c * t)), 1, AT_LAST, ROUGHENS), (q ** (T / t), 1, AT_LAST),
     ), {
         "f_c N/(1 + f_c N)": ("continuous at", 1 / (1 + T / (f_c * t)), 1, AT_LAST),  # f_c = 0
-        "h_0^(1/N)": ("continuous at", h_0 ** (T / t), 1, AT_LAST),  # h_0 = 0
+        "h_0^(1/N)": ("may be zero", h_0 ** (T / t), 1, AT_LAST),  # h_0 = 0
         # G = h_0/u_c
         "u_c G/(h_0 + u_c G)": ("continuous at", G / (h_0 / u_c + G), 1, tends(G, 0), DEEP),
         # G = h_0/u_c

@@ -133,9 +133,9 @@ FAMILIES = (
         "an integral that has a value at almost every time": ("at every time", lambda: ByParts(
             -1 / u_s)(eq(L, FirstZero((C - sp.Integral(u_s**-2, (u_s, q, G))) * (T - t), t)),
             Arithmetic(sp.Gt(G, 0))(eq(G, T * rate("u_a")), gt(rate("u_a"), 0)))),
-        # p is 0 or p_max
-        "a root beside no pressure": ("Invalid|only root",
-            lambda: follows(eq(p, p_max * (1 - sp.Pow(0, p))))),
+        # p jumps from 0 to p_max
+        "a pressure that may be zero": ("only root",
+            lambda: follows(eq(p, sp.Piecewise((p_max, p > 0), (0, True))))),
         "an integral over time by parts": ("over time", lambda: ByParts(t**2 / 2)(
             eq(G, sp.Integral(t, (t, 0, T))))),
         # u_c = -1/2
@@ -171,7 +171,6 @@ FAMILIES = (
             eq(p, p - G * (p - p_max)), SQUARE, Arithmetic(sp.Gt(G, 0))(
                 differentiate(SQUARE), SQUARE, TURNS)),
         # 0^0 at the start of u_c = exp(-1/t), u_a = t
-        "a power of what may be zero": ("is continuous", eq(p, q * G), eq(G, u_c**u_a)),
         "a pressure that jumps with tau": ("is continuous", eq(p, q * h), eq(h, h_0 * v)),
         "a pressure that jumps with the load": ("U_a.* is continuous", eq(p, q * U_a)),
     }),
