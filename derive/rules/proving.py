@@ -36,6 +36,8 @@ from .reading import clocks, constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
+#: Functions that may grow without bound on a piece, although they have a value everywhere.
+_UNBOUNDED = (sp.Pow, sp.log, sp.Ei)
 #: Heads of expressions that are linear in each of their parts.
 _LINEAR = (sp.Add, sp.Mul)
 #: Functions that are differentiable wherever they have a value; roots but at 0.
@@ -255,7 +257,8 @@ def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
         now = body.func(t)
         goals = [] if now in WEARING else [Continuous(now)]
         return [*goals, *integrable(body.args[0], s)]
-    if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
+    unbounded = isinstance(body, _UNBOUNDED) and body.has(sp.Piecewise)
+    if body.has(s) and (unbounded or not isinstance(body, (*_CONTINUOUS, *_PIECES))):
         return [HasValue(body)]
     return [goal for part in body.args for goal in integrable(part, s)]
 
