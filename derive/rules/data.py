@@ -16,7 +16,7 @@ from ..hypotheses import LOAD, Kind
 from ..kernel import Conclusion, Judgement, RuleError
 from ..language import defined_by, names
 from ..laws import r
-from ..note.model import subject
+from ..note.model import ARCHARD, subject
 from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbols
 from ..zero import is_zero
@@ -27,6 +27,8 @@ from .theorem import Theorem
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
+_ROUGHENING = frozenset(ARCHARD[1::2])
+"""The laws by which the two roughnesses change with wear."""
 
 
 def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
@@ -49,6 +51,16 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
             fixed = about and kind is not Kind.DEFINITION and not _is_open(relation, definitions)
         if fixed:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
+    _require_roughness(frozenset(h.relation for h in hypotheses))
+
+
+def _require_roughness(said: frozenset[sp.Basic]) -> None:
+    """Refuse laws by which a roughness may fall: for some data it would vanish, and none exist."""
+    for law in said & _ROUGHENING:
+        for wear in law.rhs.atoms(sp.Derivative):
+            rises = sp.Ge(law.rhs.diff(wear), 0, evaluate=False)
+            if sp.Eq(wear.expr, 0) not in said and not holds(rises, said):
+                raise RuleError(f"missing premise: {rises}")
 
 
 def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:

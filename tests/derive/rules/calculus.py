@@ -318,6 +318,9 @@ FAMILIES = (
             beside(gt(theta, h_0))),
         "an angular speed that may be that of n": ("may vary",
             equal(sp.Derivative(u_cum, symbol("n")), 0), turned(), symbol("n")),
+        # under a law that exceeds p_max it is for f_c >= 0 that there are fields: |f_c| is f_c
+        "a roughness that may vanish": (">= 0", equal(SLOPE, h_0),
+            beside(said(ARCHARD[3], Kind.MODEL))),
         "two contact laws": ("two contact laws", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.exp(-h / sigma)), eq(p, p_max / (1 + sp.exp(h / sigma))))),
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
