@@ -242,8 +242,8 @@ def _between(
         return []
     parts = (part for fact in facts for part in sp.And.make_args(fact))
     about = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})
-    shifted = (fact.xreplace({last: s}) for fact in about)
-    return [fact for fact in shifted if constant(fact) and not fact.has(HasValue)]
+    of_values = (fact for fact in about if not fact.has(HasValue, sp.Derivative))
+    return [*filter(constant, (fact.xreplace({last: s}) for fact in of_values))]
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
