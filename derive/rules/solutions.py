@@ -16,7 +16,7 @@ import sympy as sp
 
 from ..claims import Continuous, Equality, FirstZero, Property
 from ..hypotheses import CONSTANT, LOAD
-from ..kernel import Conclusion, Judgement, RuleError, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
 from ..note.model import WEARING
 from ..reals import holds, sign
 from ..symbols import symbol, t
@@ -110,7 +110,7 @@ class Separate(Theorem):
         return Conclusion(Equality(*self.claim.args))
 
 
-class ByParts(Theorem):
+class ByParts(Rule):
     """``int g ds = F(b) - F(a) + int r ds`` from a to b, for a smooth F with ``F' = g - r``."""
 
     primitive: sp.Expr
@@ -118,7 +118,7 @@ class ByParts(Theorem):
     source = "fundamental theorem of calculus; integration by parts"
     premise_names = ("the integral",)
 
-    def prove(self, *premises: Judgement) -> Conclusion:
+    def conclude(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
         integral = one_integral(given.rhs)
         (limits,) = integral.limits
@@ -131,7 +131,7 @@ class ByParts(Theorem):
         first, last = (exchanged(self.primitive, s, end) for end in ends)
         left = sp.Integral(self.rest, limits) if self.rest != 0 else self.rest
         value = replaced(given.rhs, integral, last - first + left, always=False)
-        return Conclusion(Equality(given.lhs, value), gives=(value,))
+        return Conclusion(Equality(given.lhs, value))
 
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         if self.rest == 0:
