@@ -1,46 +1,36 @@
-"""The language of claims: the expressions that they may contain, and bound variables.
+"""The language of claims: the expressions that they may contain.
 
 Overview
     The kernel trusts the heads that the model needs, exact real numbers, and names with their
     domain in the vocabulary.  Excluded are other heads, to which SymPy may assign a wrong sign, a
     second f_c with another domain, O(t), which is no number, and floats, which are not exact.
+    Each head has one form: what is cut off is 0 beyond a bound, derivatives are first ones, fields
+    are taken now, one period later or at a given time.  Limits, integrals and the like are terms of
+    sums.
 Key results
     fault         the reason why an expression is not in the language, or None
     names         the names in an expression, with their symbols or functions
     defined_by    the names that a definition introduces
     meant_by      the names in their meaning
-    bound         the variables that one node binds: of an integral, a limit, a derivative
     is_changed    whether a part of an expression was changed in place
-    guessed       whether SymPy may decide the sign of an integral without proof
-    certain       the parts that are defined wherever the whole is
-    needs         the conditions for an expression to be defined, if its arguments are
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import sympy as sp
-from sympy.concrete.expr_with_limits import ExprWithLimits
 from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.printing.latex import accepted_latex_functions
 
-from .claims import (
-    Continuous,
-    Drift,
-    FirstZero,
-    HasValue,
-    Oscillation,
-    SlowEquation,
-    Term,
-    landau_o,
-)
+from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Term, landau_o
 from .laws import GENERAL
-from .note.model import FIELDS, WEARING
+from .note.model import FIELDS
+from .parts import bound, guessed, is_slope_of_law
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
 _HASH = sp.Basic.__hash__
@@ -61,14 +51,17 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *accepted_latex_functions,
     *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o", "e", "W"),
 }
-_LAW = GENERAL.phi.func
-_FUNCTIONS = frozenset((_LAW, landau_o))
+_FUNCTIONS = frozenset((GENERAL.phi.func, landau_o))
 _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
     **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
 }
-_TOTAL = (sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.besseli)
-"""Functions that have a value at every real argument."""
+_TERMS = (sp.Limit, sp.Integral, sp.Piecewise, sp.LambertW, sp.Ei, FirstZero, Term)
+"""Heads of terms, which are in no function or power, nor in another term."""
+_BODIES = (sp.Integral, sp.Piecewise, FirstZero, Term)
+"""Heads of terms without derivatives."""
+_SUMS = (sp.Add, sp.Mul, Relational, sp.And, sp.Equivalent)
+_PERIOD = symbol("T")
 _CYCLE = (symbol("tau"), symbol("rho"))
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _BESSEL = re.compile(r"I_?[0-9]+")
@@ -114,35 +107,26 @@ def is_changed(expr: sp.Basic) -> bool:
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
     if isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1:
+        if node.func not in _FUNCTIONS and not _is_instant(node.args[0]):
+            return f"{node} is at no time"
         own = vars(node).keys() - {"nargs"}
         return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
     if kind in (sp.Symbol, sp.Dummy):
         return _fault_of_name(node, node.name)
     if kind not in _HEADS:
         return f"{kind.__name__} is of no kind that a claim may hold"
-    if kind is sp.Limit and node.args[1:3] != (t, sp.oo):
-        return f"{node} is no limit for t -> oo"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
         return f"{node} has no {_PARTS[kind]} parts"
-    if kind is sp.Pow and node.base is sp.E:
-        return f"{node} is a power of e: write exp"
-    if kind is sp.Pow and not (node.exp.is_Rational or node.base.is_positive):
-        return f"{node} is a power of what may be zero"
-    if not all(variable.is_Symbol for variable in bound(node)):
-        return f"{node} is by no variable"
-    if kind is sp.Derivative and len(set(node.variables)) > 1:
-        return f"{node} is by several variables"
-    if kind is sp.Subs and not (node.expr.is_Derivative and isinstance(node.expr.expr, _LAW)):
-        return f"{node} is no slope of the contact law"
+    wanted, fits = _FORMS.get(kind, ("", bool))
+    if wanted and not fits(node):
+        return f"{node} is no {wanted}"
+    if term := _term_inside(node):
+        return f"{term} is a term in {node}, not in a sum"
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
     if len(dict(inner)) < len(inner):
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
-    if isinstance(node, Term) and (node.args[3:] != _CYCLE or _clocks(node.args[1]) - {"tau"}):
-        return f"{node} is no coefficient at the phase tau and the pace rho"
-    if kind is sp.Integral and [len(limits) for limits in node.limits] != [3]:
-        return f"{node} has no two ends"
     if kind is sp.Integral and guessed(node):
         return f"{node} has a sign without proof"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
@@ -153,16 +137,77 @@ def _fault(node: sp.Basic) -> str | None:
     return None
 
 
-def guessed(integral: sp.Integral) -> bool:
-    """Return whether SymPy may decide the sign of an integral without proof.
+def _is_instant(time: sp.Expr) -> bool:
+    """Return whether an argument of a field is a variable, one period later, or a constant."""
+    fixed = (part.is_Symbol or part.is_Number for part in sp.Mul.make_args(time))
+    return time in (t, t + _PERIOD) or (not time.has(t) and all(fixed))
 
-    It evaluates one without free symbols by quadrature, and takes one for no zero if its integrand
-    is none, though that may be of both signs.
-    """
-    body = integral.function
-    signed = body.is_positive or body.is_negative
-    closed = integral.is_number and not integral.atoms(AppliedUndef)
-    return bool(closed or (integral.is_zero is False and not signed))
+
+def _is_root(power: sp.Pow) -> bool:
+    """Return whether the exponent of a power is rational; a power of e is written exp."""
+    return power.exp.is_Rational and power.base is not sp.E
+
+
+def _is_cut(pieces: sp.Piecewise) -> bool:
+    """Return whether a value is cut off: 0 beyond a bound, as the pressure is."""
+    first, *others = pieces.args
+    until = isinstance(first.cond, (sp.GreaterThan, sp.LessThan))
+    return until and [tuple(other.args) for other in others] == [(sp.S.Zero, sp.true)]
+
+
+def _is_slope(node: sp.Derivative) -> bool:
+    """Return whether a derivative is the first one of a field, of the law, or of a name."""
+    function, variable = node.expr, node.variables[0]
+    named = function.is_Symbol and str(variable) in DATA
+    at_variable = isinstance(function, AppliedUndef) and variable in function.args[0].free_symbols
+    return node.derivative_count == 1 and (named or at_variable)
+
+
+def _is_wave(node: sp.Expr) -> bool:
+    """Return whether a sine or cosine has a whole number of waves in a period."""
+    turns = [node.args[0] / (2 * sp.pi * clock) for clock in (t / _PERIOD, _CYCLE[0])]
+    return any(number.is_Integer for number in turns)
+
+
+def _is_of_data(zero: FirstZero) -> bool:
+    """Return whether the expression of a first zero varies with nothing but its variable."""
+    function, variable = zero.args
+    return variable.is_Symbol and not function.atoms(AppliedUndef) and not _clocks(function)
+
+
+def _is_coefficient(node: Term) -> bool:
+    return node.args[2].is_Symbol and node.args[3:] == _CYCLE and _clocks(node.args[1]) <= {"tau"}
+
+
+_FORMS: dict[type, tuple[str, Callable[[sp.Basic], bool]]] = {
+    sp.Pow: ("power with a rational exponent", _is_root),
+    sp.Piecewise: ("value that is 0 beyond a bound", _is_cut),
+    sp.Derivative: ("rate and no slope of a name", _is_slope),
+    sp.Subs: ("slope of the contact law", is_slope_of_law),
+    sp.Limit: ("limit for t -> oo", lambda node: node.args[1:3] == (t, sp.oo)),
+    sp.Integral: (
+        "integral between two ends",
+        lambda node: [len(limits) for limits in node.limits] == [3],
+    ),
+    sp.besseli: ("Bessel function of order 0", lambda node: node.order == 0),
+    FirstZero: ("first zero of a function of data", _is_of_data),
+    **dict.fromkeys((sp.sin, sp.cos), ("wave of the period", _is_wave)),
+    **dict.fromkeys(
+        (Drift, Oscillation), ("coefficient at the phase tau and the pace rho", _is_coefficient)
+    ),
+}
+"""The one form of each head."""
+
+
+def _term_inside(node: sp.Basic) -> sp.Basic | None:
+    """Return a term inside a function, a power or another term; a value that is cut off may be in
+    an integral."""
+    if isinstance(node, _SUMS):
+        return None
+    terms = (*_TERMS, sp.Derivative) if isinstance(node, _BODIES) else _TERMS
+    cut = sp.Piecewise if isinstance(node, sp.Integral) else ()
+    found = (term for term in node.atoms(*terms) - {node} if not isinstance(term, cut))
+    return min(found, key=str, default=None)
 
 
 def _clocks(expr: sp.Expr) -> set[str]:
@@ -174,13 +219,11 @@ def _held_fixed(node: sp.Basic) -> str:
 
     With a clock all clocks vary; with a datum fields and names do.
     """
-    if not isinstance(node, (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, FirstZero, Term)):
+    if not isinstance(node, (sp.Integral, sp.Limit, sp.Subs, FirstZero, Term)):
         return ""
     body = node.args[1] if isinstance(node, Term) else node.args[0]
     taken = {str(variable) for variable in bound(node)}
     others = {s.name for s in body.free_symbols} - taken
-    if isinstance(node, sp.Derivative) and body.is_Symbol and taken <= DATA:
-        return ""  # the slope of a name
     found = others & CLOCKS if taken & CLOCKS else set()
     if not taken.isdisjoint(DATA):
         found |= others - DATA | {str(field) for field in body.atoms(AppliedUndef)}
@@ -267,66 +310,3 @@ def meant_by(relation: sp.Basic) -> frozenset[str]:
     if given and {_name(relation.args[0])} == given:
         return frozenset(name for name, _ in names(relation.args[1]))
     return frozenset(name for name, _ in names(relation)) - given
-
-
-def bound(node: sp.Basic) -> frozenset[sp.Basic]:
-    """Return the variables that a node binds."""
-    if isinstance(node, (sp.Derivative, ExprWithLimits, sp.Subs, sp.Lambda)):
-        return frozenset(node.variables)
-    if isinstance(node, (sp.Limit, FirstZero)):
-        return frozenset(node.args[1:2])
-    return frozenset(node.args[2:4]) if isinstance(node, Term) else frozenset()
-
-
-def bound_in(expr: sp.Basic) -> frozenset[sp.Basic]:
-    """Return the variables that are bound anywhere in an expression."""
-    return frozenset().union(*map(bound, sp.preorder_traversal(expr)))
-
-
-def certain(expr: sp.Basic) -> Iterator[sp.Basic]:
-    """Yield the parts that are defined wherever the whole is: not branches or integrands."""
-    yield expr
-    whole = (Relational, sp.And, sp.Add, sp.Mul, sp.Pow, sp.Function)
-    if isinstance(expr, whole) and not isinstance(expr, sp.Piecewise):
-        for part in expr.args:
-            yield from certain(part)
-
-
-@cache
-def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
-    """Return the condition for an expression to be defined if its arguments are."""
-    if expr in (sp.zoo, sp.nan):
-        return (sp.false,)
-    unknown = HasValue(expr)
-    if isinstance(expr, (sp.Limit, FirstZero, Term, landau_o)):
-        return (unknown,)
-    if isinstance(expr, sp.Piecewise) and expr.args[-1].cond is not sp.true:
-        return (expr.args[0].cond if len(expr.args) == 1 else unknown,)
-    if isinstance(expr, sp.Derivative):
-        rated = expr.expr in WEARING and expr.variables == (t,)
-        return () if rated or is_slope_of_law(expr) else (unknown,)
-    if isinstance(expr, sp.Pow):
-        base, exponent = expr.args
-        if exponent.is_Integer:
-            return (sp.Ne(base, 0),) if exponent.is_negative else ()
-        relation = sp.Ge if exponent.is_positive else sp.Gt
-        return (relation(base, 0, evaluate=False),)
-    if isinstance(expr, sp.log):
-        return (sp.Gt(expr.args[0], 0),)
-    if isinstance(expr, sp.besseli):
-        return () if expr.order.is_Integer else (unknown,)
-    if isinstance(expr, sp.LambertW):
-        return (sp.Ge(expr.args[0] + sp.exp(-1), 0) if len(expr.args) == 1 else unknown,)
-    if isinstance(expr, sp.Ei):
-        return (sp.Ne(expr.args[0], 0),)
-    partial = isinstance(expr, sp.Function) and not isinstance(expr, (*_TOTAL, sp.Piecewise))
-    return (unknown,) if partial and not isinstance(expr, AppliedUndef) else ()
-
-
-def is_slope_of_law(expr: sp.Basic) -> bool:
-    """Return whether an expression is the first derivative of the unspecified contact law."""
-    if isinstance(expr, sp.Subs):
-        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
-    return isinstance(expr, sp.Derivative) and (
-        expr.derivative_count == 1 and expr.expr == _LAW(expr.variables[0])
-    )

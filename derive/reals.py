@@ -25,8 +25,8 @@ from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
 from .claims import HasValue
-from .language import certain, is_slope_of_law, needs
 from .laws import GENERAL
+from .parts import certain, is_slope_of_law, needs
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""

@@ -12,7 +12,7 @@ import sympy as sp
 
 from ..claims import Claim, Equality, Inequality, Limit, Property, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..language import bound_in
+from ..parts import bound_in
 from ..symbols import t
 from ..zero import is_zero
 from .proving import coefficients, lasts, require

@@ -217,8 +217,8 @@ class AtInfinity(Theorem):
             bounds(field, *premises)
         flat = inside.xreplace(plain).replace(sp.exp, lambda x: sp.exp(sp.expand(x.subs(u, deep))))
         order, smooth = expanded(flat.subs(u, deep), z)
-        bent = (sp.Piecewise, LAW) if order > 1 else (sp.Piecewise,)
-        if smooth.has(*bent) or not continuous(smooth, {z: sp.S.Zero}, *premises):
+        bent = order > 1 and smooth.has(LAW)
+        if bent or not continuous(smooth, {z: sp.S.Zero}, *premises):
             raise RuleError(f"missing premise: {inside} is smooth at infinity")
         for n in range(max(order, 0)):
             if not is_zero(taylor(smooth, z, n)):

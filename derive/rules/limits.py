@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Asymptotic, Limit
 from ..hypotheses import LOAD
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..language import bound
+from ..parts import bound
 from ..reals import LAW
 from ..symbols import t
 from ..zero import is_zero

@@ -27,19 +27,15 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from ..claims import Asymptotic, Continuous, FirstZero, HasValue, Limit, Property, Term
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
-from ..language import bound, bound_in, certain, needs
 from ..laws import r
 from ..note.model import WEARING
+from ..parts import bound, bound_in, certain, needs
 from ..reals import LAW, holds, sign
 from ..symbols import CLOCKS, symbols, t
 from .reading import clocks, constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
 _PIECES = (sp.Piecewise, ExprCondPair, Relational)
-#: Functions that may grow without bound on a piece, although they have a value everywhere.
-_UNBOUNDED = (sp.Pow, sp.log, sp.Ei)
-#: Heads of expressions that are linear in each of their parts.
-_LINEAR = (sp.Add, sp.Mul)
 #: Functions that are differentiable wherever they have a value; roots but at 0.
 _SMOOTH = (
     *(sp.Add, sp.Mul, sp.Pow, sp.exp, sp.tanh, sp.log, sp.Ei, sp.LambertW, AppliedUndef),
@@ -247,18 +243,12 @@ def _between(
 
 
 def integrable(body: sp.Basic, s: sp.Basic) -> list[sp.Basic]:
-    """Return the relations where pieces of an integrand are continuous; a rate is integrable, but
-    its powers need not be."""
-    if body.has(s) and not isinstance(body, (*_LINEAR, sp.Derivative)) and _rates(body):
-        return [sp.false]
-    if isinstance(body, sp.Mul) and len([*filter(_rates, body.args)]) > 1:
-        return [sp.false]
+    """Return the relations where pieces of an integrand are continuous."""
     if isinstance(body, AppliedUndef) and not isinstance(body, LAW) and body.has(s):
         now = body.func(t)
         goals = [] if now in WEARING else [Continuous(now)]
         return [*goals, *integrable(body.args[0], s)]
-    unbounded = isinstance(body, _UNBOUNDED) and body.has(sp.Piecewise)
-    if body.has(s) and (unbounded or not isinstance(body, (*_CONTINUOUS, *_PIECES))):
+    if body.has(s) and not isinstance(body, (*_CONTINUOUS, *_PIECES)):
         return [HasValue(body)]
     return [goal for part in body.args for goal in integrable(part, s)]
 

@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Claim, Conjunction, Drift, Equality, FirstZero, Inequality, Limit, Term
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, RuleError, listed
-from ..language import bound, certain, guessed, needs
+from ..parts import bound, certain, guessed, needs
 from ..reals import LAW, holds
 from ..symbols import CLOCKS, symbol, t
 

@@ -30,7 +30,9 @@ WIGGLE = sp.Function("wiggle", real=True)(t)
 WOBBLE = sp.Function("wobble", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
-STEPPED = sp.Piecewise((b_0, b_0 < 0), (b_0 + 1, True))
+CUT = sp.Piecewise((1, x <= 0), (0, True))
+MEAN = sp.Integral(U_a, (t, 0, T))
+STEPPED = b_0 + sp.Piecewise((1, b_0 >= 0), (0, True))
 
 
 class Lie(sp.Expr):  # type: ignore[misc]
@@ -88,17 +90,19 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (Positive("f_c", real=True), "of no kind"),
     (with_a_slope_of_its_own(), "of no kind"),
     (sp.log(h_0 / q, 2, evaluate=False), "no 1 parts"),
-    (sp.Pow(sp.E, f_c, evaluate=False), "power of e"),
-    (sp.Pow(0, f_c), "may be zero"),
-    (h_0**f_c, "may be zero"),
+    (sp.Pow(sp.E, f_c, evaluate=False), "rational exponent"),
+    (sp.Pow(0, f_c), "rational exponent"),
+    (h_0**f_c, "rational exponent"),
+    (2**b_0, "rational exponent"),
     (Drift(sp.S.One, sp.sin(2 * sp.pi * tau) / x, x, tau, N), "the pace rho"),
-    (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "holds N fixed"),
+    (Drift(sp.S.One, 2 + N * h_0 / y, y, tau, symbol("rho")), "the pace rho"),
     (Drift(sp.S.One, 2 + h_0 / y, y, x, symbol("rho")), "the phase tau"),
+    (Drift(sp.S.One, 2 + h_0, U_a, tau, symbol("rho")), "the phase tau"),
     (sp.Limit(WIGGLE, t, 0), "no limit for t"),  # nothing of the end follows
     (sp.Limit(f_c / k, k, sp.oo), "no limit for t"),
     (sp.sign(theta), "of no kind"),
     (sp.Integral(x * U_a, (t, 0, T), (x, 0, 1)), "two ends"),  # U_a jumps at every time
-    (WIGGLE.subs(t, t - T), "t is never"),
+    (WIGGLE.subs(t, t - T), "at no time"),
     (sp.Symbol("f_c", positive=True), "not the f_c of the vocabulary"),
     (sp.Function("u_c", positive=True)(t), "not the u_c of the vocabulary"),
     (sp.Symbol("x") ** 2, "no real quantity"),  # i
@@ -123,24 +127,24 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Symbol("e", real=True), "no real quantity"),
     (sp.Function("cosh", real=True)(t), "no real quantity"),
     (sp.Function("I_0", real=True)(t), "no real quantity"),
-    (sp.Derivative(b_0, f_c, h_0), "by several variables"),
+    (sp.Derivative(b_0, f_c, h_0), "no rate"),
     (sp.Symbol("o", real=True), "no real quantity"),
     (sp.Symbol("true", real=True), "no real quantity"),
     (sp.Function("exp", real=True)(t), "no real quantity"),
     (sp.Function("count", integer=True)(t), "no real quantity"),  # 1/2
     (sp.Function("w", negative=True)(t), "no real quantity"),  # 1
     (sp.Function("u_c", real=True)(t, x), "of no kind"),
-    (sp.Derivative(u_c, f_c), "fixed"),
+    (sp.Derivative(u_c, f_c), "no rate"),
     # 0
-    (sp.Integral(sp.Piecewise((1, x < 0), (-1, True)), (x, -1, 1)), "sign without proof"),
+    (sp.Integral(1 - sp.Piecewise((2, x >= 0), (0, True)), (x, -1, 1)), "sign without proof"),
     (sp.Integral(1 / h, (t, 0, T)), "sign without proof"),
     # a spike of area 2, which no quadrature sees
     (
         sp.Integral(10**6 * (1 - sp.tanh(10**6 * x - 10**6 / 3) ** 2), (x, 0, 1)),
         "sign without proof",
     ),
-    (sp.Derivative(h, T), "fixed"),  # one period later, T is captured
-    (sp.Derivative(h, u_c), "by no variable"),
+    (sp.Derivative(h, T), "no rate"),  # one period later, T is captured
+    (sp.Derivative(h, u_c), "no rate"),
     (sp.Integral(u_c, (f_c, 0, 1)), "fixed"),
     (sp.Integral(b_0, (f_c, 0, 1)), "fixed"),  # b_0 = L f_c
     (sp.Integral(u_c * T, (T, 1, 2)), "fixed"),
@@ -154,7 +158,29 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(sp.Piecewise((1, N * U_a >= h_0), (0, True)), (t, 0, T)), "fixed"),
     (sp.Integral(1 / q, (q, 0, k)), "q is never 0"),  # infinite
     (sp.Integral(U_a, (t, -T, T)), "t is never -T"),  # nobody says what the load was
-    (U_a.subs(t, t - T), "t is never -T"),
+    (U_a.subs(t, t - T), "at no time"),
+    # one form for each head
+    (u_c.subs(t, sigma), "at no time"),
+    (u_c.subs(t, 2 * t), "at no time"),
+    (sp.Derivative(u_c, (t, 2)), "no rate"),
+    (sp.Piecewise((q, b_0 < 0), (0, True)), "0 beyond a bound"),
+    (sp.Piecewise((q, b_0 <= 0)), "0 beyond a bound"),
+    (sp.Piecewise((q, b_0 <= 0), (h_0, True)), "0 beyond a bound"),
+    (sp.sin(f_c), "no wave"),
+    (sp.cos(sp.pi * tau), "no wave"),
+    (sp.besseli(sp.S.Half, x), "order 0"),  # imaginary for x = -1
+    (FirstZero(U_a - h_0, t), "function of data"),
+    (FirstZero(q, U_a), "function of data"),
+    (sp.tanh(sp.LambertW(q)), "not in a sum"),
+    (sp.exp(CUT), "not in a sum"),
+    (sp.log(2 + CUT), "not in a sum"),
+    (sp.Limit(CUT, t, sp.oo), "not in a sum"),
+    (sp.Integral(rate("U_a") ** 2, (t, 0, T)), "not in a sum"),  # of sqrt(t/T) it has no value
+    (sp.Piecewise((rate("u_c"), h <= 0), (0, True)), "not in a sum"),
+    (FirstZero(q - x + CUT, x), "not in a sum"),
+    (sp.Integral(1 + theta * MEAN, (theta, 0, q)), "not in a sum"),
+    (sp.Limit(U_a + MEAN, t, sp.oo), "not in a sum"),
+    (sp.Piecewise((q, MEAN >= 0), (0, True)), "not in a sum"),
 )
 SPEAKABLE: tuple[sp.Expr, ...] = (
     2 - 1 / k,
@@ -172,6 +198,10 @@ SPEAKABLE: tuple[sp.Expr, ...] = (
     x * y,
     U_a.subs(t, t + T),
     -sp.diff(LAW(y), y).subs(y, h / sigma),
+    u_c.subs(t, N * T) + u_c.subs(t, 0),
+    q * CUT + MEAN / T,
+    U_a * sp.sin(4 * sp.pi * t / T) ** 2,
+    sp.Integral(q * CUT, (q, 1, 2)),
 )
 
 
@@ -224,7 +254,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(b_0, T * rate("u_c")), "is constant"),  # u_c = t^2
     (Kind.DEFINITION, equal(b_0, sp.Integral(x * u_c, (x, 0, 1))), "is constant"),  # u_c/2
     (Kind.DEFINITION, equal(WIGGLE.subs(t, 0), u_c), "is a new name"),  # u_c = t
-    (Kind.DEFINITION, equal(WIGGLE.subs(t, 2 * t) - WIGGLE, h_0), "is a new name"),  # t = 0
+    (Kind.DEFINITION, equal(WIGGLE.subs(t, 0) - WIGGLE, h_0), "is a new name"),  # t = 0
     (Kind.MODEL, contact(ContactLaw("", kinked(r**4 + r**2), sp.S.Zero, "")), "smooth"),
     (Kind.DEFINITION, equal(kappa * f_c, 0), "contradict"),  # f_c = 1
     (Kind.DEFINITION, equal(f_c * POSITIVE, 0), "is a new name"),  # f_c = 1

@@ -20,7 +20,6 @@ import pytest
 import sympy as sp
 
 from derive import rules
-from derive.claims import HasValue
 from derive.kernel import Judgement, Rule, RuleError, infer, replay_fault
 from derive.language import names
 from derive.laws import ContactLaw, r
@@ -30,7 +29,6 @@ from derive.rules.algebra import substitute
 from derive.rules.assumption import assume, defined
 from derive.rules.calculus import differentiate
 from derive.rules.limits import later, one_period_later
-from derive.rules.proving import integrable
 from derive.rules.reading import replaced
 from derive.symbols import rate, symbol, symbols, t
 from derive.zero import is_zero
@@ -192,11 +190,3 @@ def test_a_law_of_square_roots_has_a_steady_state(shift: int) -> None:
     limit = steady_state(ContactLaw("algebraic", phi, sp.Integer(shift), "a test"))
     assert is_zero(limit.pressure.claim.value / symbol("p_max") - phi.subs(r, 1 / symbol("f_c")))
     assert replay_fault(limit.growth) is None
-
-
-def test_a_quotient_with_a_pole_behind_a_piece_is_not_integrated() -> None:
-    """Its denominator is never zero: it is 1 at the pole itself."""
-    low = symbol("q")
-    apart = y - low + sp.Piecewise((0, sp.Ne(y, low)), (1, True))
-    assert integrable(apart, y) == []
-    assert integrable(1 / apart, y) == [HasValue(1 / apart)]
