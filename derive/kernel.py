@@ -30,6 +30,7 @@ from typing import ClassVar, dataclass_transform
 from weakref import WeakKeyDictionary
 
 import sympy as sp
+from sympy.core.parameters import global_parameters
 from sympy.core.relational import Relational
 
 from .claims import Claim
@@ -203,6 +204,8 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
     application is computed once, and again if what it gave was changed.
     """
     kind = type(rule)
+    if not global_parameters.evaluate:
+        raise RuleError("no claim is made while SymPy does not evaluate")
     if not kind.__module__.startswith(_RULES) or (
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
     ):

@@ -51,7 +51,8 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *accepted_latex_functions,
     *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o", "e", "W"),
 }
-_FUNCTIONS = frozenset((GENERAL.phi.func, landau_o))
+_LAW = GENERAL.phi.func
+_FUNCTIONS = frozenset((_LAW, landau_o))
 _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
     **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
@@ -61,6 +62,8 @@ _TERMS = (sp.Limit, sp.Integral, sp.Piecewise, sp.LambertW, sp.Ei, FirstZero, Te
 _BODIES = (sp.Integral, sp.Piecewise, FirstZero, Term)
 """Heads of terms without derivatives."""
 _SUMS = (sp.Add, sp.Mul, Relational, sp.And, sp.Equivalent)
+_AS_WRITTEN = (Relational, sp.And, sp.Equivalent, sp.Derivative, sp.Limit)
+"""Heads that a claim holds as they are written, without evaluation."""
 _PERIOD = symbol("T")
 _CYCLE = (symbol("tau"), symbol("rho"))
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
@@ -106,22 +109,25 @@ def is_changed(expr: sp.Basic) -> bool:
 
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
-    if isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1:
-        if node.func not in _FUNCTIONS and not _is_instant(node.args[0]):
-            return f"{node} is at no time"
-        own = vars(node).keys() - {"nargs"}
-        return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
-    if kind in (sp.Symbol, sp.Dummy):
-        return _fault_of_name(node, node.name)
-    if kind not in _HEADS:
+    function = isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1
+    if not function and kind not in (sp.Symbol, sp.Dummy, *_HEADS):
         return f"{kind.__name__} is of no kind that a claim may hold"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
         return f"{node} has no {_PARTS[kind]} parts"
     wanted, fits = _FORMS.get(kind, ("", bool))
     if wanted and not fits(node):
         return f"{node} is no {wanted}"
+    if not _is_evaluated(node):
+        return f"{node} is not evaluated"
     if term := _term_inside(node):
         return f"{term} is a term in {node}, not in a sum"
+    if kind in (sp.Symbol, sp.Dummy):
+        return _fault_of_name(node, node.name)
+    if function:
+        if node.func not in _FUNCTIONS and not _is_instant(node.args[0]):
+            return f"{node} is at no time"
+        own = vars(node).keys() - {"nargs"}
+        return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
     if len(dict(inner)) < len(inner):
         return f"{node} has two variables of one name"
@@ -135,6 +141,16 @@ def _fault(node: sp.Basic) -> str | None:
     if isinstance(node, Relational) and not numbers:
         return f"{node} is no relation between numbers"
     return None
+
+
+def _is_evaluated(node: sp.Basic) -> bool:
+    """Return whether SymPy gives a node again from its parts.
+
+    It may have no right sign for what it would not make: 0/2, tanh(0), |0/f_c|.
+    """
+    if isinstance(node, sp.Rational):
+        return bool(node == sp.Rational(node.p, node.q))
+    return not node.args or isinstance(node, _AS_WRITTEN) or node.func(*node.args) == node
 
 
 def _is_instant(time: sp.Expr) -> bool:
@@ -156,11 +172,15 @@ def _is_cut(pieces: sp.Piecewise) -> bool:
 
 
 def _is_slope(node: sp.Derivative) -> bool:
-    """Return whether a derivative is the first one of a field, of the law, or of a name."""
-    function, variable = node.expr, node.variables[0]
-    named = function.is_Symbol and str(variable) in DATA
-    at_variable = isinstance(function, AppliedUndef) and variable in function.args[0].free_symbols
-    return node.derivative_count == 1 and (named or at_variable)
+    """Return whether a derivative is the first one of a field in time, of the law, or of a name."""
+    function, (variable, order), *others = node.args
+    if others or order != 1:
+        return False
+    if function.is_Symbol:
+        return str(variable) in DATA
+    by_time = ((t, t), (t + _PERIOD, t), (_CYCLE[0], _CYCLE[0]))
+    times = ((variable, variable),) if isinstance(function, _LAW) else by_time
+    return isinstance(function, AppliedUndef) and (function.args[0], variable) in times
 
 
 def _is_wave(node: sp.Expr) -> bool:

@@ -181,7 +181,7 @@ class _Translator:
             signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
             self.known += [known for given, known in signs.items() if getattr(expr, given)]
         if expr is sp.pi or (type(expr) in _BALL and expr.args[0].is_Rational):
-            self.known += [name > _rational(expr, -1), name < _rational(expr, 1)]
+            self.known += [name >= _rational(expr, -1), name <= _rational(expr, 1)]
 
 
 class _Root(sp.Expr):
@@ -189,7 +189,7 @@ class _Root(sp.Expr):
 
 
 def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
-    """Return a rational number below (-1) or above (1) a constant, from a ball around it."""
+    """Return a rational number that bounds a constant below (-1) or above (1)."""
     if expr is sp.pi:
         ball = flint.arb.pi()
     else:

@@ -3,11 +3,12 @@
 Overview
     The falsifier drops the conditions of each equation of the note in turn and looks for a model
     of all the others in which the equation is false.  That takes minutes, so the table of the
-    outcomes is committed: ``reasons.json``, under a hash of hypotheses and claim.
-    ``python -m derive.reasons`` adds missing rows.
+    outcomes is committed: ``reasons.json``, under a hash of hypotheses and claim.  Each model is
+    drawn again from its seed, so that the table can be checked at once.
+    ``python -m derive.reasons`` renews it.
 Key results
     table        the rows, equation after equation
-    outdated     the equations that have changed since
+    outdated     the equations whose rows are missing, or no longer true
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from pathlib import Path
 
 from .claims import Predicate
 from .equations import Equation
-from .falsifier.verdict import counterexample_without
+from .falsifier.verdict import SEEDS, counterexample_without
 from .hypotheses import Hypothesis
 from .kernel import Judgement
 from .typeset.display import inline
@@ -35,7 +36,7 @@ class Reason:
     ``model`` is in LaTeX, an equation each; ``where`` describes how the claim fails there; both
     are empty where no model was found.  ``left`` is, in LaTeX, the domain that a quantity leaves
     there, if the condition gives the claim a meaning instead.  ``key`` is a hash of hypotheses and
-    claim.
+    claim, ``seed`` the one from which the model was drawn, -1 if none.
     """
 
     equation: str
@@ -45,6 +46,7 @@ class Reason:
     where: str
     key: str
     left: str = ""
+    seed: int = -1
 
 
 def table() -> tuple[Reason, ...]:
@@ -54,9 +56,25 @@ def table() -> tuple[Reason, ...]:
 
 
 def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]:
-    """Return the ids of the equations with a condition that is missing in the rows."""
-    kept = {(row.equation, row.condition, row.key) for row in rows}
-    return [e.id for e in equations if any(place not in kept for place in _places(e))]
+    """Return the ids of the equations whose rows are missing, or have models that are no longer
+    drawn from their seeds or no longer break the equation."""
+    kept = _by_place(rows)
+    stale = (
+        equation.id
+        for equation in equations
+        for place, about in _places(equation).items()
+        if place not in kept or not _is_current(kept[place], *about)
+    )
+    return [*dict.fromkeys(stale)]
+
+
+def _by_place(rows: Sequence[Reason]) -> dict[tuple[str, str, str], Reason]:
+    return {(row.equation, row.condition, row.key): row for row in rows}
+
+
+def _is_current(row: Reason, statement: Judgement, condition: Hypothesis) -> bool:
+    seeds = [row.seed] if row.model else []
+    return row == reason(row.equation, statement, condition, seeds)
 
 
 def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, Hypothesis]]:
@@ -75,20 +93,25 @@ def _key(statement: Judgement) -> str:
 
 
 def renewed(equations: Sequence[Equation], rows: Sequence[Reason]) -> Iterator[Reason]:
-    """Yield a row for every condition; look for the missing ones."""
-    known = {(row.equation, row.condition, row.key): row for row in rows}
+    """Yield a row for every condition; look for those that are missing or outdated."""
+    known = _by_place(rows)
     for equation in equations:
-        for place, (statement, condition) in _places(equation).items():
-            yield known.get(place) or _reason(equation.id, statement, condition)
+        for place, about in _places(equation).items():
+            row = known.get(place)
+            yield row if row and _is_current(row, *about) else reason(equation.id, *about)
 
 
-def _reason(identifier: str, statement: Judgement, condition: Hypothesis) -> Reason:
-    broken = counterexample_without(statement, condition)
+def reason(
+    identifier: str, statement: Judgement, condition: Hypothesis, seeds: Sequence[int] = SEEDS
+) -> Reason:
+    """Return the row of a condition, with a model drawn from one of the seeds."""
+    broken = counterexample_without(statement, condition, seeds)
     model = tuple(map(inline, broken.model)) if broken else ()
     where = broken.where if broken else ""
     left = inline(broken.left) if broken and broken.left is not None else ""
     key = _key(statement)
-    return Reason(identifier, condition.brief, condition.latex, model, where, key, left)
+    seed = broken.seed if broken else -1
+    return Reason(identifier, condition.brief, condition.latex, model, where, key, left, seed)
 
 
 def main() -> None:

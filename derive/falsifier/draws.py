@@ -404,7 +404,7 @@ def _function(varying: sp.Expr, seed: int) -> sp.Expr:
     ]  # fmt: skip
     shape = chance.choice(shapes)
     if varying == symbol("U_a"):  # the seed determines the kind of load
-        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, wave, 1 - sp.exp(-s), sp.sqrt(s),
+        loads = (sp.S.One, sp.sin(sp.log(1 + s)), s, wave, sp.sin(s), sp.sqrt(s),
                  sp.S.Zero, sp.log(1 + s), (-1) ** sp.floor(2 * s), sp.exp(-s), both, -s,
                  s * sp.sin(s))  # fmt: skip
         shape = loads[seed % len(loads)]

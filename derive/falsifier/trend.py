@@ -7,7 +7,8 @@ Overview
     its distance from the values between the last three windows:
 
     - *tends*: the largest distance is below 1e-9 of the values, or decreases by at least 15 %;
-    - *does not*: it stays (within 3 %) or grows, and is above 1/1000 of the values;
+    - *does not*: it stays (within 3 %) or grows, does not fall ever faster, and is above 1/1000 of
+      the values;
     - otherwise there is no verdict.
 
     Divergence: the smallest value increases from window to window by as much as before.
@@ -40,9 +41,11 @@ def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
         return True if all(abs(v - value).upper() <= _GROSS * size for v in windows[-1]) else None
     if last <= _RESOLVED * size or (last < arb("0.85") * before and before < arb("0.95") * first):
         return True
-    if last >= arb("0.97") * before and before >= arb("0.9") * first and last > _GROSS * size:
-        return False
-    return None
+    distances = [abs(v - value).mid() for v in windows[-1]]
+    falling = all(later < now for now, later in pairwise(distances))
+    hastens = falling and before - last > first - before
+    stays = last >= arb("0.97") * before and before >= arb("0.9") * first and not hastens
+    return False if stays and last > _GROSS * size else None
 
 
 def _diverges(windows: Sequence[Window], sign: int) -> bool | None:

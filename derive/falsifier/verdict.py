@@ -13,7 +13,7 @@ Key results
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
@@ -43,8 +43,8 @@ from .values import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 _T, _TAU, _CYCLES = symbol("T"), symbol("tau"), symbol("N")
-DRAWS, _FEW, _SEEDS = 60, 12, 300
-"""Number of seeds for relations, for a judgement, for one without a hypothesis."""
+DRAWS, _FEW, SEEDS = 60, 12, range(1000)
+"""Number of seeds for relations, for a judgement; seeds for one without a hypothesis."""
 ENOUGH = 12
 """Number of models after which relations that hold in all of them are accepted."""
 
@@ -53,7 +53,7 @@ Relations = tuple[sp.Basic, ...]
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A model in which a claim fails: its drawn values as equations, and the failure.
+    """A model in which a claim fails: its drawn values as equations, the failure, and the seed.
 
     ``left`` is, instead of the claim, the domain that a quantity leaves, so that the model has no
     value for it.
@@ -61,6 +61,7 @@ class Counterexample:
 
     model: tuple[sp.Eq, ...]
     where: str
+    seed: int
     left: sp.Basic | None = None
 
     def __str__(self) -> str:
@@ -112,10 +113,12 @@ def try_on_models(judgement: Judgement) -> TrialResult:
 
 @cache
 def _tried(relations: Relations, claim: sp.Basic) -> TrialResult:
-    return falsify(relations, claim, _FEW, enough=2)
+    return falsify(relations, claim, range(_FEW), enough=2)
 
 
-def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counterexample | None:
+def counterexample_without(
+    judgement: Judgement, dropped: Hypothesis, seeds: Sequence[int] = SEEDS
+) -> Counterexample | None:
     """Return a model of all other hypotheses that breaks the claim, None if none is found.
 
     If none is found, the model may be one in which a quantity that the others determine leaves its
@@ -123,8 +126,8 @@ def counterexample_without(judgement: Judgement, dropped: Hypothesis) -> Counter
     superfluous.
     """
     relations, claim = _relations(judgement), _decidable(judgement.claim)
-    found = falsify(relations, claim, _SEEDS, _SEEDS, dropped.relation).counterexample
-    left = (_leaving(stays, relations, dropped.relation) for stays in _domains(relations))
+    found = falsify(relations, claim, seeds, len(seeds), dropped.relation).counterexample
+    left = (_leaving(stays, relations, dropped.relation, seeds) for stays in _domains(relations))
     return found or next(filter(None, left), None)
 
 
@@ -136,12 +139,14 @@ def _domains(relations: Relations) -> list[Relational]:
     return [stays for stays in found if stays is not None]
 
 
-def _leaving(stays: Relational, relations: Relations, dropped: sp.Basic) -> Counterexample | None:
+def _leaving(
+    stays: Relational, relations: Relations, dropped: sp.Basic, seeds: Sequence[int]
+) -> Counterexample | None:
     """Return a model without a hypothesis in which a quantity leaves its domain."""
     values = {h.lhs: h.rhs for h in relations if isinstance(h, sp.Eq)}
     claim = stays.xreplace({stays.lhs: values.get(stays.lhs, stays.lhs)})
     *free, without, claimed = (_without_domain(r, stays.lhs) for r in (*relations, dropped, claim))
-    found = falsify(free, claimed, _SEEDS, _SEEDS, without).counterexample
+    found = falsify(free, claimed, seeds, len(seeds), without).counterexample
     return found and replace(found, left=stays)
 
 
@@ -171,7 +176,7 @@ def _decidable(claim: Claim) -> sp.Basic:
 def falsify(
     hypotheses: Iterable[sp.Basic],
     claim: sp.Basic,
-    draws: int = DRAWS,
+    seeds: Sequence[int] = range(DRAWS),
     enough: int = ENOUGH,
     dropped: sp.Basic | None = None,
 ) -> TrialResult:
@@ -186,13 +191,13 @@ def falsify(
     *others, absent, _ = relations
     imposed = (*((absent.negated,) if isinstance(absent, _ORDERS) else ()), *others)
     models = decided = doubtful = 0
-    seeds = sorted(range(draws), key=lambda seed: dropped is not None and slides_fast(seed))
-    for model, wanted in _models(relations, imposed, seeds):
+    slow_first = sorted(seeds, key=lambda seed: dropped is not None and slides_fast(seed))
+    for seed, model, wanted in _models(relations, imposed, slow_first):
         *given, without, claimed = wanted
         about = quantities(sp.Tuple(*wanted)), _varied(wanted)
         fits = _fits(model, tuple(given), *about, model.times)
         doubtful += fits is None
-        if dropped is None and models - decided + doubtful > draws // 3:
+        if dropped is None and models - decided + doubtful > len(seeds) // 3:
             break  # further models would be as undecided
         if not fits or truth(without, model).holds is not False:
             continue
@@ -203,7 +208,7 @@ def falsify(
                 continue  # now that the fields are known for longer
             named = without.args if isinstance(without, _ORDERS) else ()
             drawn = _described(model, given, sp.Tuple(without, claimed), named)
-            return TrialResult(Counterexample(drawn, outcome.where), models, decided + 1)
+            return TrialResult(Counterexample(drawn, outcome.where, seed), models, decided + 1)
         decided += outcome.holds is True
         if decided >= (enough if model.states else 3 * enough):
             break
@@ -284,9 +289,9 @@ def _described(
 
 def _models(
     relations: Relations, imposed: Relations, seeds: Iterable[int]
-) -> Iterator[tuple[Model, Relations]]:
-    """Yield models that are drawn to satisfy ``imposed``, and the relations with the contact law
-    of each model."""
+) -> Iterator[tuple[int, Model, Relations]]:
+    """Yield seeds, models that are drawn to satisfy ``imposed``, and the relations with the contact
+    law of each model."""
     trends = sp.Tuple(*relations).has(sp.Limit)
     in_time, imposed_in_time = (_in_time(given, imposed) for given in (relations, imposed))
     for seed in seeds:
@@ -297,7 +302,7 @@ def _models(
         given = tuple(with_law(h, law) for h in imposed_in_time)
         model = draw_model(given, wanted, seed)
         if model is not None:
-            yield model, wanted
+            yield seed, model, wanted
 
 
 def _in_time(relations: Relations, imposed: Relations) -> Relations:

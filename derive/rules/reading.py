@@ -9,6 +9,7 @@ Key results
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cache
 from typing import TypeVar
 
@@ -178,9 +179,10 @@ def exchanged(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     parts = tuple(exchanged(part, old, new) for part in expr.args)
     whole = _rebuilt(expr, parts) if parts != expr.args else expr
     if isinstance(whole, (sp.Add, sp.Mul)) and isinstance(old, whole.func):
-        rest = [part for part in whole.args if part not in old.args]
-        if len(rest) + len(old.args) == len(whole.args):
-            return whole.func(new, *rest)
+        rest = Counter(whole.args)
+        rest.subtract(old.args)
+        if min(rest.values()) >= 0:
+            return whole.func(new, *rest.elements())
     return whole
 
 

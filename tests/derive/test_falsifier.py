@@ -12,13 +12,13 @@ from derive.falsifier.verdict import counterexample_without, falsify
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
 
-MANY = 400
+MANY = range(400)
 f_c, h_0, u_c, U_a, G, p_max = symbols("f_c h_0 u_c U_a G p_max")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.said)
 def test_a_false_statement_is_falsified(case):
-    answer = falsify(case.given, case.false, MANY, enough=MANY)
+    answer = falsify(case.given, case.false, MANY, enough=len(MANY))
     assert answer.counterexample is not None
     assert str(answer.counterexample) or not case.false.free_symbols
 
@@ -75,7 +75,8 @@ def test_each_hypothesis_of_the_steady_rate_is_needed():
     claim = sp.Eq(forever(rate("u_c")), STEADY)
     given = (RATE, sp.Eq(initial("u_c"), 0), sp.Gt(f_c, 0), BOUNDED)
     grows, bounded, law = (
-        falsify(given, claim, 30, dropped=dropped) for dropped in (sp.Gt(f_c, 0), BOUNDED, RATE)
+        falsify(given, claim, range(30), dropped=dropped)
+        for dropped in (sp.Gt(f_c, 0), BOUNDED, RATE)
     )
     assert any(f"f_c = {end}" in str(grows) for end in "-0")
     assert not bounded.passed
@@ -107,7 +108,7 @@ def test_a_field_without_a_value_breaks_no_claim():
 def test_a_limit_over_a_datum_holds_the_others_fixed():
     """Only a name may follow the datum: u_cum, and not h_0."""
     named = sp.Eq(symbols("u_cum")[0], f_c**2 * h_0)
-    assert falsify((named,), sp.Eq(sp.Limit(h_0, f_c, sp.oo), h_0), MANY, enough=MANY).passed
+    assert falsify((named,), sp.Eq(sp.Limit(h_0, f_c, sp.oo), h_0), MANY, enough=len(MANY)).passed
 
 
 def test_a_rate_that_is_lost_in_rounding_breaks_no_claim():
@@ -132,10 +133,10 @@ def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
 
 def holds_but_not(given, true, false):
     """The true claim holds in models of what is given, the false one fails in one of them."""
-    answer = falsify(given, true, 30)
+    answer = falsify(given, true, range(30))
     assert answer.passed, str(answer)
     assert answer.decided >= 2
-    assert not falsify(given, false, 30).passed
+    assert not falsify(given, false, range(30)).passed
 
 
 def test_a_field_may_be_a_parameter_of_an_integral():
@@ -203,6 +204,16 @@ def test_a_slow_start_and_a_decay_by_fits_are_no_lack_of_a_limit():
     waves = [[arb(v) for v in (1, -1, 1, 0, -1)]] * 5
     with pytest.raises(UndefinedError, match="vary"):
         trend.limit(waves)
+
+
+def test_what_falls_ever_faster_has_no_trend_yet():
+    times = [10**k for k in (2, 3, 4, 5, 6)]
+    slow = [[1 / (1 + arb(time * part) / 10**9) for part in (1, 2, 3)] for time in times]
+    assert trend.tends_to(slow, arb(0)) is None
+    settles = [[1 + 1 / arb(time * part) for part in (1, 2, 3)] for time in times]
+    assert trend.tends_to(settles, arb(0)) is False
+    waves = [[arb(1), arb(-1), arb(size) / 10] for size in (9, 9, 9, 9, 8)]
+    assert trend.tends_to(waves, arb(0)) is False
 
 
 def test_a_load_that_goes_on_to_vary_leaves_a_limit_refutable():

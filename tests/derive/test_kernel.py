@@ -228,12 +228,19 @@ def test_there_are_no_other_judgements() -> None:
 
 @pytest.mark.parametrize("sign", ["class", "instance"])
 def test_a_function_with_signs_of_its_own_is_refused(sign: str) -> None:
-    function = sp.Function("w", positive=True)
+    function = sp.Function(f"w_{sign}", positive=True)  # SymPy would give an equal one again
     owner = function if sign == "class" else function(t)
     owner.is_negative = True
     claim = sp.Lt(function(t) if sign == "class" else owner, 0, evaluate=False)
     with pytest.raises(RuleError, match="no claim"):
         Arithmetic(claim)()
+
+
+def test_nothing_is_concluded_while_sympy_does_not_evaluate() -> None:
+    """Then it holds 0/f_c apart from 0, and its modulus for positive."""
+    apart = ne(f_c, 0)
+    with sp.evaluate(False), pytest.raises(RuleError, match="does not evaluate"):
+        Arithmetic(sp.Eq(h_0 * sp.Abs(0 * (1 / f_c)), 5 * sp.Abs(0 * (1 / f_c))))(apart)
 
 
 def test_a_claim_that_is_changed_after_its_check_is_found() -> None:
