@@ -200,8 +200,8 @@ def infer(rule: Rule, *premises: Judgement, name: str = "", remark: str = "") ->
 def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesis, ...], Claim]:
     """Return the hypotheses and the claim that a rule concludes from premises.
 
-    They depend only on its fields and on the hypotheses and claims of the premises, so that each
-    application is computed once, and again if what it gave was changed.
+    What follows from some premises follows from all with the same hypotheses and claims, so that
+    each application is computed once, and again if what it gave was changed.
     """
     kind = type(rule)
     if not global_parameters.evaluate:

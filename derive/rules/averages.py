@@ -57,7 +57,8 @@ def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Ex
     if power or not continuous(inverse, {small: sp.S.Zero}, *premises):
         raise RuleError(f"missing premise: {law} is smooth at infinity")
     steady, *others = (taylor(inverse, small, n) for n in range(order + 1))
-    if fields(steady) or clocks(steady) or not holds(sp.Ne(steady, 0), facts_of(premises)):
+    moves = fields(steady) or clocks(steady) or steady.atoms(sp.Dummy)
+    if moves or not holds(sp.Ne(steady, 0), facts_of(premises)):
         raise RuleError(f"missing premise: {steady} is the limit of {law}")
     return steady, *others
 

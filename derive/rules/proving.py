@@ -234,7 +234,7 @@ def _between(
     """
     start = last.subs(t, 0)
     begun = first == start or sp.Eq(start, first) in facts
-    if not begun or not (last in WEARING or Continuous(last) in facts):
+    if last.args != (t,) or not begun or not (last in WEARING or Continuous(last) in facts):
         return []
     parts = (part for fact in facts for part in sp.And.make_args(fact))
     about = (f for f in parts if isinstance(f, Relational) and f.atoms(AppliedUndef) == {last})

@@ -92,7 +92,8 @@ class Separate(Theorem):
         known = {e.lhs: e.rhs for e in (p.claim for p in others) if isinstance(e, Equality)}
         (s, first, y), wear = integral.limits[0], known.get(u, u)
         start, facts = y.subs(t, 0), facts_of(premises)
-        if not {y, Continuous(y)} & {*WEARING, *facts} or known.get(start, start) != first:
+        moves = y.args == (t,) and {y, Continuous(y)} & {*WEARING, *facts}
+        if not moves or known.get(start, start) != first:
             raise RuleError(f"missing premise: {start} = {first}, and {y} is continuous")
         require_integrands(self.claim, *premises)
         moving, load = sp.Dummy(**s.assumptions0), sp.Dummy(real=True)

@@ -271,6 +271,9 @@ FAMILIES = (
                 eq(N, L**2 * (3 + h / sp.Abs(h)) / h**2))),
         "half an order of a drift": ("number of an order",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
+        # from 2 to 3
+        "a limit that varies with the phase": ("is the limit of",
+            lambda: defined(c_1, Drift(sp.S.One, SWAYING + sp.sin(2 * sp.pi * tau) ** 2, *PACE))),
         # phi may turn like |r - 1|^(3/2)
         "a second order of any law": ("for order 2",
             lambda: defined(c_1, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),

@@ -36,7 +36,7 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
 p_max, theta, x_inf, tau, u_stop = symbols("p_max theta x_inf tau u_stop")
-p_s, u_s = symbols("p_s u_s")
+p_s, u_s, N = symbols("p_s u_s N")
 Q = sp.Rational(3, 2)
 x, z = sp.Symbol("x", positive=True), sp.Symbol("z", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
@@ -79,7 +79,19 @@ def by_pin(speed, wear, *facts):
     return Separate(claim)(law, eq(u_c, wear), PIN_START, CONSTANTLY)
 
 
+def by_another_clock(now, size):
+    """Return the time by an integral from a field at another clock to itself."""
+    claim = equal(t, sp.Integral(size / C, (u_s, now, now)))
+    return Separate(claim)(RATE, eq(u_c, size * now), CONSTANTLY, given(Continuous(now)))
+
+
 FAMILIES = (
+    Family(by_another_clock, (), {
+        # u_c = C t, and v = tau at tau = t/T, L = C T
+        "a wear by the phase": ("is continuous", v, L),
+        # N = t/T
+        "a wear by the number of cycles": ("is continuous", u_c.subs(t, N * T), sp.S.One),
+    }),
     Family(by_pin, (
         (C, u_a), (f_c * C, f_c * u_a, ne(f_c, 0)),
         (2 * C * (u_a / h_0 + q), u_a**2 / h_0 + 2 * q * u_a, ge(u_a, 0)),
