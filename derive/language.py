@@ -154,9 +154,9 @@ def _is_evaluated(node: sp.Basic) -> bool:
 
 
 def _is_instant(time: sp.Expr) -> bool:
-    """Return whether an argument of a field is a variable, one period later, or a constant."""
-    fixed = (part.is_Symbol or part.is_Number for part in sp.Mul.make_args(time))
-    return time in (t, t + _PERIOD) or (not time.has(t) and all(fixed))
+    """Return whether a field may be taken at a time: now, one period later, at the start, after N
+    cycles, or at a phase."""
+    return time in (t, t + _PERIOD, 0, symbol("N") * _PERIOD, _CYCLE[0])
 
 
 def _is_root(power: sp.Pow) -> bool:

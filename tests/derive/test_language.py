@@ -181,6 +181,8 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     # one form for each head
     (u_c.subs(t, sigma), "at no time"),
     (u_c.subs(t, 2 * t), "at no time"),
+    (u_c.subs(t, h_0), "at no time"),
+    (PHASED.subs(tau, 1), "at no time"),
     (sp.Derivative(u_c, (t, 2)), "no rate"),
     (sp.Piecewise((q, b_0 < 0), (0, True)), "0 beyond a bound"),
     (sp.Piecewise((q, b_0 <= 0)), "0 beyond a bound"),
@@ -307,7 +309,6 @@ CALLED: tuple[tuple[Kind, sp.Basic], ...] = (
     (Kind.DEFINITION, equal(b_0, sp.exp(f_c))),
     (Kind.DEFINITION, equal(WIGGLE * q, -f_c)),
     (Kind.DEFINITION, equal(forever(WIGGLE - WOBBLE), 0)),
-    (Kind.DEFINITION, equal(b_0, PHASED.subs(tau, 1))),
     (Kind.DEFINITION, equal(N, t / T)),
     (Kind.MODEL, contact(ContactLaw("", kinked(1 + r**2), sp.S.Zero, ""))),
     (Kind.DEFINITION, equal(f_c * b_0, 0)),

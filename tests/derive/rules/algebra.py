@@ -291,7 +291,7 @@ FAMILIES = (
         "the logarithm of what is negative": ("contradict", TRIVIAL, ge(G, sp.log(f_c)), FALLING),
         "a wear above its start, at the start": ("contradict", TRIVIAL, START, gt(u_c, 0)),
         "a wear that stays below what it reaches": ("contradict", TRIVIAL, lt(u_a, L),
-            eq(u_a.subs(t, T), L)),
+            eq(u_a.subs(t, N * T), L)),
         "a constant load that grows": ("contradict", TRIVIAL, eq(U_a, b_0),
             eq(b_0, later(U_a) - L)),
         # f_c = -1/10
