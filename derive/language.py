@@ -196,7 +196,9 @@ def _is_of_data(zero: FirstZero) -> bool:
 
 
 def _is_coefficient(node: Term) -> bool:
-    return node.args[2].is_Symbol and node.args[3:] == _CYCLE and _clocks(node.args[1]) <= {"tau"}
+    order, law, size, *cycle = node.args
+    counts = order.is_Integer and order.is_positive
+    return counts and size.is_Symbol and tuple(cycle) == _CYCLE and _clocks(law) <= {"tau"}
 
 
 _FORMS: dict[type, tuple[str, Callable[[sp.Basic], bool]]] = {
@@ -213,7 +215,8 @@ _FORMS: dict[type, tuple[str, Callable[[sp.Basic], bool]]] = {
     FirstZero: ("first zero of a function of data", _is_of_data),
     **dict.fromkeys((sp.sin, sp.cos), ("wave of the period", _is_wave)),
     **dict.fromkeys(
-        (Drift, Oscillation), ("coefficient at the phase tau and the pace rho", _is_coefficient)
+        (Drift, Oscillation),
+        ("coefficient c_n or w_n at the phase tau and the pace rho", _is_coefficient),
     ),
 }
 """The one form of each head."""

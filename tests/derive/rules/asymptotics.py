@@ -269,7 +269,7 @@ FAMILIES = (
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(
                 eq(N, L**2 * (3 + h / sp.Abs(h)) / h**2))),
-        "half an order of a drift": ("number of an order",
+        "half an order of a drift": ("coefficient c_n",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
         # from 2 to 3
         "a limit that varies with the phase": ("is the limit of",
