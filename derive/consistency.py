@@ -16,6 +16,7 @@ from functools import cache
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from .claims import Term
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, meant_by
 from .note.model import CLOSURE, WEARING, subject
@@ -23,6 +24,7 @@ from .reals import contradictory
 from .symbols import CLOCKS, QUANTITIES, symbol, t
 
 _PRESSURE, _PERIOD = symbol("p"), symbol("T")
+_SCALED = dict.fromkeys((symbol("tau"), symbol("N")), t / _PERIOD)
 
 
 def inconsistency(hypotheses: tuple[Hypothesis, ...]) -> str | None:
@@ -70,13 +72,18 @@ def _of_model(hypotheses: tuple[Hypothesis, ...]) -> str | None:
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
     """Return the hypotheses in contact, also at all times in them, at extremes, and for rates."""
-    now = [h.relation for h in hypotheses]
+    now = [_in_time(h.relation) for h in hypotheses]
     pressed = [sp.Gt(_PRESSURE, 0)] if any(relation.has(_PRESSURE) for relation in now) else []
     fields = frozenset[sp.Basic]().union(*(relation.atoms(AppliedUndef) for relation in now))
     times = frozenset(f.args[0] for f in fields if f.func.__name__ in QUANTITIES) | {sp.S.Zero}
     times = times.union(*map(_extremes, now)) - {t}
     implied = (said for relation in now for said in _implied(relation, times))
     return frozenset((*pressed, *now, *implied, sp.Gt(t, 0)))
+
+
+def _in_time(relation: sp.Basic) -> sp.Basic:
+    """Write the clocks of a relation as functions of time."""
+    return relation if relation.has(sp.Derivative, Term) else relation.xreplace(_SCALED)
 
 
 def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:

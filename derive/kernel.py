@@ -4,9 +4,10 @@ Overview
     A judgement ``Gamma |- claim`` states: if the hypotheses Gamma hold at every time, so does the
     claim.  A field that has a rate is the integral of it, and the rate may jump, as the pressure
     does: a relation with rates, and what follows from one at an instant, holds at almost every
-    time; limits leave out the other times.  Rules alone make judgements: a rule is a theorem that
-    reads its premises; all rules are in ``derive.rules``.  The hypotheses of a conclusion are those
-    of the premises, plus those that the rule adds, minus those that a theorem discharges.
+    time; limits leave out the other times.  The clocks tau and N are t/T.  Rules alone make
+    judgements: a rule is a theorem that reads its premises; all rules are in ``derive.rules``.  The
+    hypotheses of a conclusion are those of the premises, plus those that the rule adds, minus those
+    that a theorem discharges.
 Key results
     Judgement     hypotheses, claim, and the rule and premises from which it follows
     Rule          a theorem, which concludes from premises

@@ -129,7 +129,8 @@ FAMILIES = (
         # G = t/T
         "N in an asymptotic relation": ("may take every value", logarithmic(), eq(N, G)),
         # G = q/N, for one N
-        "a length that grows with N": ("may take every value", logarithmic(), eq(q, N * G)),
+        "a length that grows with N": ("may take every value", logarithmic(),
+            eq(q, (1 + N) * G)),
     }),
     Family(lambda unknown, *known: Solve(unknown)(*known), (
         (h_0, eq(u_a, h_0)), (rate("G"), eq(T * rate("G") + G, theta)),
@@ -292,6 +293,9 @@ FAMILIES = (
         "a wear above its start, at the start": ("contradict", TRIVIAL, START, gt(u_c, 0)),
         "a wear that stays below what it reaches": ("contradict", TRIVIAL, lt(u_a, L),
             eq(u_a.subs(t, N * T), L)),
+        "a phase that stands still": ("contradict", TRIVIAL, eq(tau, G), eq(G, L)),
+        "a number of cycles of two values": ("contradict", TRIVIAL, eq(N, G),
+            eq(G**2, 3 * G - 2)),
         "a constant load that grows": ("contradict", TRIVIAL, eq(U_a, b_0),
             eq(b_0, later(U_a) - L)),
         # f_c = -1/10

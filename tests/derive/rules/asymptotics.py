@@ -212,7 +212,7 @@ FAMILIES = (
         "the logarithm of 0/0": ("Ne", FEW, sp.log(N + N * GAP)),
         # G = h_star/sigma_c + 1: N = theta - 1
         "a field in the equation": ("is about", FEW, LOG_N, FALLS, G),
-        "time in the equation": ("is about", FEW, LOG_N, FALLS, t / T),
+        "time in the equation": ("is about", FEW, LOG_N, FALLS, theta + t / T),
         "fewer cycles for more wear": ("grows without bound", -FEW),
         "another factor": ("quotient of the slopes", 2 * FEW),
         # half as many where b_0 = 0
@@ -267,8 +267,8 @@ FAMILIES = (
                 gt(sigma_c, 0))),
         # h = -1/10: half as many
         "what vanishes from below": (r"h\(t\) >= 0",
-            lambda: LeadingTerm(sp.Eq(LOG_N, sp.log(4 * L**2 / h**2)))(
-                eq(N, L**2 * (3 + h / sp.Abs(h)) / h**2))),
+            lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(4 * L**2 / h**2)))(
+                eq(G, L**2 * (3 + h / sp.Abs(h)) / h**2))),
         "half an order of a drift": ("coefficient c_n",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
         # from 2 to 3
