@@ -11,19 +11,21 @@ Key results
 from __future__ import annotations
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from ..claims import Equality, Inequality
 from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, RuleError
 from ..note.model import SUPPORT
 from ..symbols import symbols, t
-from .proving import continuous, lasts, require, require_defined, smooth
+from .proving import coefficients, continuous, lasts, require, require_defined, smooth
 from .reading import (
     clocks,
     constant,
     equality,
     field_of_rate,
     fields,
+    functions,
     inequality,
     initial_value,
     require_hypothesis,
@@ -118,11 +120,9 @@ class RigidLimit(Theorem):
         (first,) = premises
         given, small = equality(first), sp.Dummy("1/k", positive=True)
         require_hypothesis(SPRINGS, first)
-        others = [h for h in first.hypotheses if h != SPRINGS]
-        apart = [h.relation.subs(LOAD, LOAD + U_c) for h in others]
-        loads = [r for r in apart if r.has(U_c.func) or r.atoms(LOAD.func) - {LOAD}]
-        loads += given.relation.atoms(LOAD.func) - {LOAD}
-        if loads or given.relation.has(U_c.func) or any(h.relation.has(k) for h in others):
+        others = [h.relation for h in first.hypotheses if h != SPRINGS]
+        moved = given.relation.has(U_c.func) or given.relation.atoms(LOAD.func) - {LOAD}
+        if moved or any(r.has(k) for r in others) or not all(map(_by_difference, others)):
             raise RuleError("missing premise: nothing else is said of the load, of U_c and of k")
         deeper = {k: 1 / small, LOAD: LOAD + small * p}
         changed = k, LOAD, U_c  # premises about them hold at finite stiffness only
@@ -131,6 +131,20 @@ class RigidLimit(Theorem):
             raise RuleError(f"missing premise: {given.relation} is continuous for k -> oo")
         left, right = (side.subs(small, 0) for side in sides)
         return Conclusion(Equality(left, right), adds=(RIGID,), discharges=(SPRINGS,))
+
+
+def _by_difference(relation: sp.Basic) -> bool:
+    """Return whether a relation has the load and the deflection in ``U_c - U_a`` alone, if at all,
+    as a multiple that is added.
+
+    The relation is read as it is: with ``U_a + U_c`` for the load, parts without a value might
+    cancel.
+    """
+    found = {f for f in functions(relation) if f.func in (LOAD.func, U_c.func)}
+    if not found <= {LOAD, U_c} or not isinstance(relation, Relational):
+        return not found
+    parts = [coefficients(side, LOAD, U_c) for side in relation.args]
+    return all(each and constant(each[0]) and each[0] + each[1] == 0 for each in parts)
 
 
 rigid = RigidLimit()

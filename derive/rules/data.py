@@ -21,7 +21,7 @@ from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import is_contact_law, open_set, require_defined, smooth, undefined
+from .proving import continuity, is_contact_law, open_set, require_defined, smooth, undefined
 from .reading import equality, functions
 from .theorem import Theorem
 
@@ -77,13 +77,19 @@ def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
 
 
 def _is_open(relation: sp.Basic, definitions: Collection[sp.Basic]) -> bool:
-    """Return whether a relation, with the names in it written out, is between data alone and holds
-    on an open set of them."""
+    """Return whether a relation is between data alone and holds on an open set of them, with the
+    names in it written out: parts of it that then cancel must have values there, too."""
     values = {known.lhs: known.rhs for known in definitions if isinstance(known, sp.Equality)}
-    while (told := relation.xreplace(values)) != relation:
-        relation = told
-    told = all(name in DATA for name, _ in names(relation))
-    return told and open_set(relation)
+
+    def told(expr: sp.Basic) -> sp.Basic:
+        while (further := expr.xreplace(values)) != expr:
+            expr = further
+        return expr
+
+    whole = told(relation)
+    of_data = all(name in DATA for name, _ in names(whole))
+    parts = (goal for side in relation.args for goal in continuity(side, side.free_symbols))
+    return of_data and open_set(whole) and all(holds(told(g), frozenset([whole])) for g in parts)
 
 
 def _leaves_data_free(relation: sp.Basic) -> bool:
@@ -98,7 +104,8 @@ def _leaves_data_free(relation: sp.Basic) -> bool:
     if not _is_pressure_law(relation):
         return relation in _SETTINGS
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)
-    return law.free_symbols <= {r} and is_contact_law(law)
+    same = not relation.has(r) and relation.rhs == PRESSURE_MAX * law.subs(r, h / sigma)
+    return same and law.free_symbols <= {r} and not functions(law) and is_contact_law(law)
 
 
 def _is_pressure_law(relation: sp.Basic) -> bool:

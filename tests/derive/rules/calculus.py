@@ -42,6 +42,7 @@ from tests.derive.judgements import (
     eq,
     equal,
     ge,
+    given,
     gt,
     integral,
     le,
@@ -167,6 +168,30 @@ def uncoupled():
 TIE = sp.sqrt(2 * f_c * L * h_0 - h_0**2 - f_c**2 * L**2)
 
 
+def pressed_by_the_load(closure, *facts):
+    """Return p = k U_a, under a gap that the load and the deflection do not change."""
+    return Arithmetic(equal(p, k * U_a))(closure, eq(h, h_0 + u_c), assume(SPRINGS), *facts)
+
+
+def of_two_values():
+    """Return dp/dt = 0 for a pressure of two values under a load that has a rate."""
+    moves = pressed_by_the_load(eq(h, h_0 + u_c + U_c - U_a))
+    two = eq(p * (p - L), 0)
+    rates = differentiate(moves, assume(DIFFERENTIABLE))
+    return Arithmetic(equal(rate("p"), 0))(two, differentiate(two, rates))
+
+
+def repeated_by_a_root():
+    """Return p(t + T) = p under a closure that has a value for a load of period T alone."""
+    after = U_a.subs(t, t + T)
+    nothing = 2 * G * (U_a - U_c) - G * (2 * U_a - 2 * U_c)
+    periodic = nothing * sp.sqrt(2 * U_a * after - U_a**2 - after**2)
+    closure = given(equal(h, h_0 + u_c + U_c - U_a + periodic))
+    now = pressed_by_the_load(closure)
+    same = Arithmetic(equal(after, U_a))(closure)
+    return Arithmetic(equal(later(p), p))(now, one_period_later(now), same)
+
+
 def alike(left, right):
     return sp.Equivalent(left, right, evaluate=False)
 
@@ -220,6 +245,10 @@ FAMILIES = (
         "k -> oo with U_c held fixed": ("equilibrium", eq(R_a, k * b * L * (U_c - U))),
         "k -> oo under a bounded load": ("nothing else is said", opened(BOUNDED)),
         "a load that is continuous": ("nothing else is said", opened(assume(CONTINUOUS))),
+        # p jumps from L to 0
+        "a load that has a rate": ("nothing else is said", of_two_values()),
+        # p = k (1 + t)
+        "a load that repeats by a root": ("nothing else is said", repeated_by_a_root()),
         "a deflection one period later": ("nothing else is said", deflected()),  # 0 = 1
         # 0/0
         "what is pressed one period later": ("nothing else is said", pressed(LATER)),
@@ -281,6 +310,10 @@ FAMILIES = (
         "two data tied by a root": ("may vary", equal(IN_H_0, 0), tied(gt(TIE, -L)), h_0),
         "two data tied by a root in a bound": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), U + sp.Abs(TIE))), h_0),
+        "two data tied by a root in a law": ("may vary", equal(IN_H_0, 0), tied(eq(p,
+            p_max * (sp.exp(-r) + (h / sigma - r) * TIE))), h_0),
+        "two data tied by a root times what a name makes 0": ("may vary", equal(IN_H_0, 0),
+            tied(defined(theta, f_c * h_0), gt(f_c + (theta - f_c * h_0) * TIE, 0)), h_0),
         "two data tied by a piece": ("may vary", equal(IN_H_0, 0),
             tied(gt(sp.Piecewise((1, sp.Le((h_0 - f_c * L) ** 2, 0)), (0, True)), 0)), h_0),
         "two data tied by a bound of a name": ("may vary", equal(IN_H_0, 0),
