@@ -70,7 +70,7 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
     if isinstance(expr, sp.log):
         return (sp.Gt(expr.args[0], 0),)
     if isinstance(expr, sp.LambertW):
-        return (sp.Ge(expr.args[0] + sp.exp(-1), 0) if len(expr.args) == 1 else unknown,)
+        return (sp.Ge(expr.args[0] + sp.exp(-1), 0, evaluate=False),)
     if isinstance(expr, sp.Ei):
         return (sp.Ne(expr.args[0], 0),)
     partial = isinstance(expr, sp.Function) and not isinstance(expr, _TOTAL)

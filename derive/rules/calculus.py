@@ -93,7 +93,7 @@ class Differentiate(Theorem):
 
     def prove(self, *premises: Judgement) -> Conclusion:
         given = equality(premises[0])
-        if not smooth(given.lhs - given.rhs) or clocks(given.relation) - {t}:
+        if not smooth(given.lhs) or not smooth(given.rhs) or clocks(given.relation) - {t}:
             raise RuleError(f"missing premise: {given.relation} is differentiable")
         rates = sp.diff(given.lhs, t), sp.diff(given.rhs, t)
         # A field that equals the other side at every time has its rate, if that always has a value.
