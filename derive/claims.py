@@ -34,7 +34,7 @@ class ClaimError(ValueError):
 class FirstZero(sp.Expr):
     """The least positive zero of an expression in a variable; ``FirstZero(expr, variable)``.
 
-    The expression has a value from 0 to there: if it lacks one before, there is no first zero.
+    The expression has a value between 0 and there: if it lacks one before, there is no first zero.
     """
 
     is_commutative = True

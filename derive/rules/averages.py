@@ -23,6 +23,7 @@ from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Drift, Equality, Oscillation, SlowEquation, Term
 from ..hypotheses import LOAD, SINE, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, RuleError, listed, plain
+from ..parts import needs
 from ..reals import LAW, holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
@@ -53,8 +54,10 @@ def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Ex
     if order > 1 and law.has(LAW):
         raise RuleError(f"missing premise: {law} is smooth enough for order {order}")
     small = sp.Dummy("1/sigma", positive=True)
-    power, inverse = expanded(law.subs(ROUGHNESS, 1 / small), small)
-    if power or not continuous(inverse, {small: sp.S.Zero}, *premises):
+    partial = [part for part in sp.preorder_traversal(law) if needs(part)]  # before they cancel
+    inside = [expanded(e.subs(ROUGHNESS, 1 / small), small) for e in (*partial, law)]
+    power, inverse = inside[-1]
+    if power or not all(continuous(e, {small: sp.S.Zero}, *premises) for _, e in inside):
         raise RuleError(f"missing premise: {law} is smooth at infinity")
     steady, *others = (taylor(inverse, small, n) for n in range(order + 1))
     moves = fields(steady) or clocks(steady) or steady.atoms(sp.Dummy)

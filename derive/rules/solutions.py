@@ -24,12 +24,13 @@ from ..zero import is_zero
 from .proving import (
     continuous,
     facts_of,
+    in_words,
     lasting_facts,
     lasts,
     require,
-    require_defined,
     require_integrands,
     smooth,
+    undefined,
 )
 from .reading import (
     constant,
@@ -179,7 +180,11 @@ class FirstRoot(Theorem):
         inside = a_1**2 - a_2 * a_0
         if product.degree() > 2 or not all(e.is_real for e in (a_0, a_1, a_2)):
             raise RuleError(f"missing premise: {function} times {self.factor} is quadratic")
-        require_defined(sp.Tuple(function, self.factor).subs(x, z), *premises)
+        y, facts = sp.Dummy(**x.assumptions0), facts_of(premises)
+        whole = sp.Tuple(function, self.factor).xreplace({x: y})  # as written: nothing cancels
+        for goal in undefined(whole, *premises):
+            if not holds(goal, facts | {sp.Gt(y, 0)}):
+                raise RuleError(f"missing premise: {in_words(goal)}")
         require(sp.Gt(self.factor.subs(x, z), 0), *premises)
         for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
             require(goal, *premises)

@@ -60,6 +60,8 @@ RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
 LOG_F, WAVING = sp.log(f_c - 1), sp.cos(4 * sp.pi * tau)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
+TIED = sp.sqrt(2 * f_c * h_0 - f_c**2 - h_0**2)  # it has a value where h_0 is f_c alone
+VOID = f_c * (h_0 + 1) - f_c * h_0 - f_c  # 0, but not to SymPy
 SWAYING, PACE = 2 + L * sp.sin(2 * sp.pi * tau) / ROUGHNESS, (ROUGHNESS, tau, rho)
 FIRST_WAVE = -(1 - theta) * U * rho * sp.cos(2 * sp.pi * tau) / sp.pi
 
@@ -271,6 +273,9 @@ FAMILIES = (
                 eq(G, L**2 * (3 + h / sp.Abs(h)) / h**2))),
         "half an order of a drift": ("coefficient c_n",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
+        # f_c = 1, h_0 = 2
+        "a root times what is 0": ("smooth at infinity",
+            lambda: defined(c_1, Drift(sp.S.One, SWAYING + VOID * TIED, *PACE))),
         # from 2 to 3
         "a limit that varies with the phase": ("is the limit of",
             lambda: defined(c_1, Drift(sp.S.One, SWAYING + sp.sin(2 * sp.pi * tau) ** 2, *PACE))),

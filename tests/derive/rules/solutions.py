@@ -37,7 +37,7 @@ u_c, u_a, U_a, p, h, G = symbols("u_c u_a U_a p h G")
 h_0, f_c, C, L, T, q, b_0, U, h_star = symbols("h_0 f_c C L T q b_0 U h_star")
 p_max, theta, x_inf, tau, u_stop = symbols("p_max theta x_inf tau u_stop")
 p_s, u_s, N = symbols("p_s u_s N")
-Q = sp.Rational(3, 2)
+Q, w_0 = sp.Rational(3, 2), sp.Symbol("w_0", real=True)
 x, z = sp.Symbol("x", positive=True), sp.Symbol("z", real=True)
 v, w = sp.Function("v", real=True)(tau), sp.Function("w", positive=True)(tau)
 du = rate("u_c")
@@ -234,7 +234,10 @@ FAMILIES = (
         "a start below the root": ("f_c > 0", f_c - x),
         "a factor that vanishes there": ("missing premise", h_star - x, h_star - x),
     }),
-    Family(lambda zero: FirstRoot(zero, sp.S.One)(), (), {
+    Family(lambda zero: FirstRoot(zero, sp.S.One)(), (FirstZero(1 - w_0, w_0),), {
         "no first zero": ("is a first zero", h_star),
+        # no value for f_c = -1
+        "a logarithm times what is 0 from 0 on": ("f_c > 0",
+            FirstZero((sp.Abs(w_0) - w_0) * sp.log(f_c) + 1 - w_0, w_0)),
     }),
 )  # fmt: skip
