@@ -5,8 +5,8 @@ Overview
     domain in the vocabulary.  Excluded are other heads, to which SymPy may assign a wrong sign, a
     second f_c with another domain, O(t), which is no number, and floats, which are not exact.
     Each head has one form: what is cut off is 0 beyond a bound, derivatives are first ones, fields
-    are taken now, one period later or at a given time.  Limits, integrals and the like are terms of
-    sums.
+    are taken now, one period later, at the start, after N cycles or at a phase.  Limits, integrals
+    and the like are terms of sums.
 Key results
     fault         the reason why an expression is not in the language, or None
     names         the names in an expression, with their symbols or functions

@@ -43,8 +43,8 @@ from .values import truth
 
 _ORDERS = (sp.Gt, sp.Ge, sp.Lt, sp.Le)
 _T, _TAU, _CYCLES = symbol("T"), symbol("tau"), symbol("N")
-DRAWS, _FEW, SEEDS = 60, 12, range(1000)
-"""Number of seeds for relations, for a judgement; seeds for one without a hypothesis."""
+DRAWS, _FEW, SEEDS = map(range, (60, 12, 1000))
+"""Seeds for relations, for a judgement, for one without a hypothesis."""
 ENOUGH = 12
 """Number of models after which relations that hold in all of them are accepted."""
 
@@ -113,7 +113,7 @@ def try_on_models(judgement: Judgement) -> TrialResult:
 
 @cache
 def _tried(relations: Relations, claim: sp.Basic) -> TrialResult:
-    return falsify(relations, claim, range(_FEW), enough=2)
+    return falsify(relations, claim, _FEW, enough=2)
 
 
 def counterexample_without(
@@ -176,7 +176,7 @@ def _decidable(claim: Claim) -> sp.Basic:
 def falsify(
     hypotheses: Iterable[sp.Basic],
     claim: sp.Basic,
-    seeds: Sequence[int] = range(DRAWS),
+    seeds: Sequence[int] = DRAWS,
     enough: int = ENOUGH,
     dropped: sp.Basic | None = None,
 ) -> TrialResult:
