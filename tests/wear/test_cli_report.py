@@ -97,6 +97,28 @@ def test_blocks_have_no_long_run():
 
 
 @pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize(
+    ("changes", "heads"),
+    [
+        ([], []),
+        (["contact.friction_coefficient=0.12"], ["Sliding (mm)", "Work (mJ/mm²)"]),
+        (["contact.width_mm=20", "contact.length_mm=30"], ["Peak (N)", "Mean (N)"]),
+    ],
+)
+def test_forces_and_friction_of_the_cycles_stand_in_the_report(changes, heads, monkeypatch):
+    scene = load_scene("section4", changes)
+    history = solve(scene, [1, 10], rtol=1e-8)
+    monkeypatch.setattr(scene_report, "_solved", lambda _: history)
+    document = scene_report.report(scene, "wear report section4")
+    assert ("tab:forces" in document.marks) == bool(heads)
+    texts = [token.content for token in document.tokens]
+    assert all(any(head in text for text in texts) for head in heads)
+    known = {"friction_work_mJ_per_mm2", "mean_pin_reaction_N"} & history.columns().keys()
+    numbers = [t.meta["number"].value for t in inline(document.tokens) if t.type == "number"]
+    assert {history.columns()[name][-1] for name in known} <= set(numbers)
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_law_of_the_scenes_own_stands_in_its_report(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     scene = load_scene("section4", ['contact.law={phi = "1/(1 + exp(r - 1))"}'])

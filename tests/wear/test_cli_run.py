@@ -21,6 +21,8 @@ from wear.load.spans import most_cycles
 from wear.scene import load_scene
 from wear.solver import solve
 
+EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
+
 
 @pytest.fixture
 def run(call):
@@ -202,7 +204,7 @@ def test_states_inside_the_cycles_are_the_same_in_both_kinds_of_file(run, tmp_pa
 
 
 def test_states_inside_the_cycles_of_blocks(run, tmp_path):
-    scene = str(Path(__file__).parents[2] / "docs" / "examples" / "blocks.toml")
+    scene = str(EXAMPLES / "blocks.toml")
     path = tmp_path / "inside.csv"
     most = most_cycles(load_scene(scene).load)
     request = ("--phases", "2", "-o", str(path))
@@ -212,6 +214,15 @@ def test_states_inside_the_cycles_of_blocks(run, tmp_path):
     status, _, messages = run(scene, "--cycles", f"0,{most}", *request)
     assert status == 2
     assert f"begins after {most - 1}" in messages
+
+
+def test_the_usual_cycles_go_to_the_end_of_the_load(call, tmp_path):
+    scene = tmp_path / "short.toml"
+    scene.write_text((EXAMPLES / "blocks.toml").read_text().replace("repeat = 10", "repeat = 1"))
+    for command, cycles in (("run", [1, 10, 100, 1000, 2000]), ("sensitivity", [1, 2000])):
+        assert json.loads(call(command, str(scene), "--json")[1])["cycles"] == cycles
+        status, _, messages = call(command, str(scene), "--cycles", "1,9000")
+        assert (status, "is 2000; name cycles up to that" in messages) == (2, True)
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".csv"])

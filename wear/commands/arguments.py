@@ -100,11 +100,14 @@ def add_rtol(parser: Parser, low: float, default: str, of: str = " of the wear")
 def add_cycles(
     parser: Parser,
     help: str,
-    default: str | None = None,
+    usual: str | None = None,
     usage: str = "--cycles N,...",
 ) -> None:
-    """Declare numbers of cycles."""
-    declare(parser, usage, help, type=cycles, default=default)
+    """Declare numbers of cycles; the usual ones are those up to the end of the load."""
+    if usual is not None:
+        help += f" (default: {usual}, to the end of the load)"
+        parser.set_defaults(usual_cycles=cycles(usual))
+    declare(parser, usage, help, type=cycles)
 
 
 def add_depth(parser: Parser, help: str) -> None:
@@ -219,6 +222,7 @@ def read(options: Options) -> Faults:
     An argument with faults is None; a command stops at faults before it uses values.
     """
     from wear.faults import SceneError
+    from wear.load.spans import most_cycles
     from wear.scene import load_scene
 
     faults = Faults(options.faults)
@@ -231,6 +235,9 @@ def read(options: Options) -> Faults:
         except SceneError as fault:
             faults.append(str(fault))
     options.scene = scenes if isinstance(names, list) else next(iter(scenes), None)
+    if "usual_cycles" in options and options.cycles is None:
+        most = min((most_cycles(scene.load) for scene in scenes), default=0)
+        options.cycles = tuple(dict.fromkeys(min(n, most) for n in options.usual_cycles))
     if "readings" in options and options.data is not None:
         options.readings = _readings(options.data, scenes, faults)
     return faults

@@ -31,7 +31,7 @@ _OF_PHASES = (".csv", ".nc")
 def add_arguments(parser: Parser) -> None:
     arguments.add_scene(parser)
     about = "numbers of cycles, 0 for the initial state; 0:9000 for all from 0 to 9000"
-    arguments.add_cycles(parser, f"{about} (default: %(default)s)", "1,10,100,1000,10000")
+    arguments.add_cycles(parser, about, "1,10,100,1000,10000")
     arguments.add_rtol(parser, 1e-15, "1e-10", " of the bearing wear")
     about = (
         "auto, abel, collocation (of a measured history), or an integrator of SciPy "

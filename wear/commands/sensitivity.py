@@ -25,8 +25,7 @@ if TYPE_CHECKING:
 def add_arguments(parser: Parser) -> None:
     """Declare the scene, the numbers of cycles and the file."""
     arguments.add_scene(parser)
-    about = "numbers of cycles (default: %(default)s)"
-    arguments.add_cycles(parser, about, "1,9000,100000000")
+    arguments.add_cycles(parser, "numbers of cycles", "1,9000,1e8")
     arguments.add_depth(parser, "also for the number of cycles to this depth of wear")
     arguments.add_rtol(parser, 1e-13, "1e-10")
     about = "write a .csv file, or draw a tornado diagram: .png, .svg, .pdf"

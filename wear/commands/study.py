@@ -49,7 +49,7 @@ def add_arguments(parser: Parser) -> None:
         "lognormal(median,factor) in samples; may be repeated"
     )
     declare(parser, "--vary KEY=VALUES", about, action="append", default=[])
-    arguments.add_cycles(parser, "numbers of cycles (default: %(default)s)", "9000")
+    arguments.add_cycles(parser, "numbers of cycles", "9000")
     about = f"{', '.join(DESIGNS)} (default: %(default)s)"
     declare(parser, "--design DESIGN", about, lambda: DESIGNS, default="grid")
     samples, seeds = arguments.whole(0, 10**9), arguments.whole(0, 2**63)
