@@ -121,7 +121,7 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
             yield terminal.table(
                 ["specimen", *(name.replace("_mm", "\n(mm)").replace("_", " ")
                                for name in (asked, answer)), "95 %\nfrom", "\nto"],
-                [[row["specimen"], f"{row[asked]:.6g}", _end(row[answer]),
+                [[row["specimen"], f"{row[asked]:.6g}", _end(row[answer], infinite="not reached"),
                   *map(_end, row["interval_95"])] for row in rows],
             )  # fmt: skip
     yield ""
@@ -140,13 +140,13 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
 
 
-def _end(value: float, digits: int = 4) -> str:
-    """Return a number in words; "open" if it is infinite.
+def _end(value: float, digits: int = 4, infinite: str = "open") -> str:
+    """Return a number, or the word for an infinite one.
 
-    >>> _end(0.12345), _end(-float("inf"))
-    ('0.1235', 'open')
+    >>> _end(0.12345), _end(-float("inf")), _end(float("inf"), infinite="not reached")
+    ('0.1235', 'open', 'not reached')
     """
-    return f"{value:.{digits}g}" if abs(value) < float("inf") else "open"
+    return f"{value:.{digits}g}" if abs(value) < float("inf") else infinite
 
 
 def _write(folder: Path, result: Fit, document: dict[str, Any], samples: FloatArray | None) -> None:
