@@ -13,8 +13,10 @@ import sympy
 
 from wear.faults import SceneError
 from wear.load import Block, Blocks, Harmonics, HistoryLoad, Sine, Table
-from wear.scene import Scene, load_scene
+from wear.scene import Scene, load_scene, parse_scene
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
+from wear.sensitivities import sensitivity
+from wear.solver import solve
 
 SECTION4 = load_scene("section4")
 
@@ -148,6 +150,37 @@ def test_changes_take_the_place_of_entries(change):
     assert other.name == "section4"
     assert other.with_({"support": None}).support is None
     assert SECTION4.bearing.roughness_growth == 0.25
+
+
+LISTS: list[tuple[object, str, float]] = [
+    (Harmonics(0.0, (1e-4, 3e-4), (2e-4,), 0.06), "load.cosine_mm[1]", 3e-4),
+    (Table((0.0, 0.02, 0.06), (0.0, 4e-4, 0.0)), "load.values_mm[1]", 4e-4),
+    (Blocks((Block(Sine(2e-4, 0.06), 5), Block(Sine(5e-4, 0.03), 3)), repeat=2),
+     "load.blocks[1].amplitude_mm", 5e-4),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("load", "key", "value"), LISTS)
+def test_an_entry_of_a_list_is_changed_by_the_name_that_sensitivities_give_it(load, key, value):
+    scene = replace(SECTION4, load=load)
+    assert scene.with_({key: value}) == scene
+    changed = parse_scene(scene.to_toml(), overrides=[f"{key}={2 * value!r}"])
+    assert changed == scene.with_({key: 2 * value}) != scene
+    step = 1e-4 * value
+    more, less = (solve(scene.with_({key: value + by}), 8, 1e-13).u_c[0] for by in (step, -step))
+    found = sensitivity(scene, [8])
+    slope = found.derivative[list(found.keys).index(key), 0]
+    assert (more - less) / (2.0 * step) == pytest.approx(slope, rel=1e-6)
+
+
+def test_what_is_no_entry_of_a_list_is_refused_with_all_other_faults():
+    keys = ("load.amplitude_mm[0]", "bearing[1]", "title[0]", "load.blocks[0].period_s")
+    for change in (SECTION4.with_, overridden):
+        with pytest.raises(SceneError) as refused:
+            change(dict.fromkeys(keys, 1.0) | {"motion.radius_mm": -1.0})
+        lines = str(refused.value).splitlines()
+        assert sum("is no entry of a list" in line for line in lines) == len(keys)
+        assert sum("is negative" in line for line in lines) == 1
 
 
 def test_rows_are_kept_unless_the_load_changes(tmp_path):

@@ -24,9 +24,9 @@ from wear.input_files import MISSING, read_bytes
 from wear.load import Blocks, Force, ForceTable, HistoryLoad, Load, Loading
 from wear.load.conversion import as_table, load_from_table
 from wear.scene.tables import Bearing, Contact, Motion, Pin, Support
-from wear.scene.text import MOST_BYTES, PARTS, Source, read_tables, set_entry
+from wear.scene.text import MOST_BYTES, PARTS, Source, faults_of, path_of, read_tables, set_entry
 from wear.scene.variant import KEYS, PIN_PARAMETERS, VariantKey
-from wear.validation import Finding, Prose, SceneTable, Text, problems, table, wrong
+from wear.validation import EntryError, Finding, Prose, SceneTable, Text, problems, table, wrong
 from wear.words import are_texts, did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
@@ -87,6 +87,8 @@ class Scene(SceneTable):
 
         >>> load_scene("section4").with_({"bearing.roughness_growth": 0.3}).bearing.roughness_growth
         0.3
+
+        An entry of a list is named as by `sensitivity`: `load.blocks[0].amplitude_mm`.
         """
         if not hasattr(changes, "items") or not are_texts([*changes]):
             form = "{'bearing.roughness_growth': 0.3}"
@@ -96,9 +98,14 @@ class Scene(SceneTable):
             name: self._entries(name) if name in named else getattr(self, name)
             for name in self.entries
         }
+        faults: list[Fault] = []
         for key, value in changes.items():
-            set_entry(tables, tuple(key.split(".")), value, keep=changes)
-        return Scene.from_dict(tables, self.name, self.folder)
+            try:
+                set_entry(tables, path_of(key), value, keep=changes)
+            except EntryError as error:
+                faults += faults_of(error, shown(key))
+        source = Source(_place(self.name), faults=tuple(faults))
+        return _checked(tables, source, self.name, self.folder)
 
     def _entries(self, table: str) -> dict[str, Any]:
         """Return the given entries of a table as plain values."""
@@ -320,7 +327,7 @@ def parse_scene(
 
 def _checked(tables: Mapping[str, Any], source: Source, name: str, folder: Path | None) -> Scene:
     named = (("load",), ("load", "file"), ("load", "blocks"), ("contact", "law"))
-    if any(path in source.overrides for path in named):
+    if any(path in named or path[-1] == "file" for path in source.overrides):
         folder = Path()  # an option that names a file means the current folder
     faults = list(source.faults)
     try:

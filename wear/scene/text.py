@@ -27,6 +27,7 @@ PARTS = ("bearing", "pin", "contact", "support", "motion", "load")
 
 _HEADER = re.compile(r"\s*(\[\[?)\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 _ENTRY = re.compile(r"\s*([A-Za-z0-9_\-\"'. \t]+?)\s*=")
+_INDEXED = re.compile(r"([^\[\]]+)((?:\[\d{1,9}\])+)")
 _COMMA = re.compile(r"=\s*[-+]?\d+,\d+\s*(#.*)?$")
 _AT_LINE = re.compile(r"\s*\(at (?:line (\d+), column \d+|end of document)\)")
 
@@ -72,14 +73,19 @@ def read_tables(
         try:
             path, value = _read_override(option)
             if path in options:
-                raise wrong(f"{shown('.'.join(path))} is set twice", "keep one of the two")
-        except EntryError as error:
-            place = f"--set {shown(option)}"
-            faults += [Fault(place, None, "", "", *words) for _, *words in error.findings]
-        else:
+                key = option.partition("=")[0].strip()
+                raise wrong(f"{shown(key)} is set twice", "keep one of the two")
             set_entry(tables, path, value, keep=options)
+        except EntryError as error:
+            faults += faults_of(error, f"--set {shown(option)}")
+        else:
             options[path] = option
     return tables, Source(file, key_lines(text), options, tuple(faults))
+
+
+def faults_of(error: EntryError, place: str) -> list[Fault]:
+    """Return the faults of an entry that could not be set."""
+    return [Fault(place, None, "", "", *words) for _, *words in error.findings]
 
 
 def _refused(file: str, line: int | None, problem: str, remedy: str) -> SceneError:
@@ -159,17 +165,16 @@ def _split_key(dotted: str) -> tuple[str, ...]:
 # Overrides: TABLE.KEY=VALUE
 
 
-def _read_override(option: str) -> tuple[tuple[str, ...], object]:
+def _read_override(option: str) -> tuple[Path, object]:
     """Return the path and the value of TABLE.KEY=VALUE, or raise an `EntryError`.
 
     >>> _read_override("contact.law=exponential")
     (('contact', 'law'), 'exponential')
     """
     dotted, equals, raw = option.partition("=")
-    path = tuple(part.strip() for part in dotted.split("."))
-    if "[" in dotted:
-        raise wrong("is an entry of a list", "write it in the scene file")
-    if not equals or not all(path) or not 1 <= len(path) <= 2:
+    path = path_of(dotted)
+    of_table = 1 <= len(path) <= 2 or isinstance(path[2], int)
+    if not equals or "" in path or not of_table:
         remedy = "write --set TABLE.KEY=VALUE, such as --set bearing.hardness_MPa=200"
         raise wrong("is not TABLE.KEY=VALUE", remedy)
     owner = next((each.place for each in TABLES if each.place and path[0] in each.entries), "")
@@ -194,6 +199,19 @@ def _override_value(raw: str) -> object:
         return raw
 
 
+def path_of(key: str) -> Path:
+    """Return the path of a key of the scene file.
+
+    >>> path_of("bearing.hardness_MPa"), path_of("load.blocks[0].period_s")
+    (('bearing', 'hardness_MPa'), ('load', 'blocks', 0, 'period_s'))
+    """
+    path: list[str | int] = []
+    for part in map(str.strip, key.split(".")):
+        item = _INDEXED.fullmatch(part)
+        path += [item[1], *map(int, re.findall(r"\d+", item[2]))] if item else [part]
+    return tuple(path)
+
+
 def set_entry(
     tables: dict[str, Any], path: Path, value: object, keep: Collection[Path | str] = ()
 ) -> None:
@@ -201,13 +219,15 @@ def set_entry(
 
     One closure replaces the other, a kind of load the keys that the new kind does not have, a file
     of rows the period and checksum of other rows; entries in `keep`, which are set too, remain and
-    are validated.
+    are validated. Raises `EntryError` if a list has no such entry.
     """
-    name, key = str(path[0]), ".".join(map(str, path[1:]))
+    name, inner = str(path[0]), path[1:]
+    depth = next((place for place, part in enumerate(inner) if isinstance(part, int)), len(inner))
+    key, within = ".".join(map(str, inner[:depth])), inner[depth:]
     if not key:
-        tables[name] = value
+        tables[name] = _with_entry(tables.get(name), within, value)
     elif isinstance(table := tables.setdefault(name, {}), dict):
-        table[key] = value
+        table[key] = _with_entry(table.get(key), within, value)
         for other in _replaced(name, key, value):
             if (name, other) not in keep and f"{name}.{other}" not in keep:
                 table.pop(other, None)
@@ -216,6 +236,20 @@ def set_entry(
         tables[name] = {key: value}  # which a text is not
     if tables[name] is None:
         del tables[name]
+
+
+def _with_entry(old: object, path: Sequence[str | int], value: object) -> object:
+    """Return an entry with a part of it replaced: an item of a list, or an entry of a table."""
+    if not path:
+        return value
+    place, *rest = path
+    if isinstance(old, dict) and isinstance(place, str):
+        return {**old, place: _with_entry(old.get(place), rest, value)}
+    items = list(old) if isinstance(old, (list, tuple)) else []
+    if not isinstance(place, int) or not place < len(items):
+        raise wrong("is no entry of a list of the scene file", "name one that is, counted from 0")
+    items[place] = _with_entry(items[place], rest, value)
+    return items
 
 
 def _replaced(name: str, key: str, value: object) -> list[str]:
