@@ -257,7 +257,7 @@ def sweep(
     """
     faults = Faults()
     numbers = np.array(whole_cycles(cycles, faults), dtype=float)
-    known = checked_scenes(scenes, rtol, faults)
+    known = checked_scenes(scenes, rtol, faults, numbers.tolist())
     fewer = [resampled(scene, rtol) for scene in known]
     last = float(np.max(numbers, initial=0.0))
 

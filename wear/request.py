@@ -89,12 +89,25 @@ def check_rtol(rtol: float, faults: Faults, least: float = LEAST_RTOL) -> None:
 
 
 def checked_scenes(
-    scenes: Sequence[Scene | str | os.PathLike[str]], rtol: float, faults: Faults
+    scenes: Sequence[Scene | str | os.PathLike[str]],
+    rtol: float,
+    faults: Faults,
+    cycles: Iterable[float] = (),
 ) -> list[Scene]:
     """Return the scenes of a request, or raise its `faults` and those of these checks."""
     check_rtol(rtol, faults)
     faults.stop_if_any()
-    return as_scenes(scenes)
+    known = as_scenes(scenes)
+    check_end(known, cycles, faults)
+    faults.stop_if_any()
+    return known
+
+
+def check_end(scenes: Iterable[Scene], cycles: Iterable[float], faults: Faults) -> None:
+    """Check that the loads of all scenes go on for these numbers of cycles."""
+    last = min((most_cycles(scene.load) for scene in scenes), default=MOST_CYCLES)
+    if max(cycles, default=0) > last:
+        faults.append(f"cycles: the last whole cycle of the load is {last}; name cycles up to that")
 
 
 def obstacle(scene: Scene) -> str | None:
@@ -127,8 +140,6 @@ def checked_request(
         faults.append("method: collocation is for a measured history; take auto")
     if time_limit is not None and not (is_number(time_limit) and time_limit > 0.0):
         faults.append(f"time_limit: {time_limit!r} is not a positive number of seconds")
-    last = most_cycles(scene.load)
-    if max(wanted, default=0) > last:
-        faults.append(f"cycles: the last whole cycle of the load is {last}; name cycles up to that")
+    check_end([scene], wanted, faults)
     faults.stop_if_any()
     return wanted

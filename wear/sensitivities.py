@@ -94,7 +94,7 @@ def gradients(
     cycles = np.array(whole_cycles(cycles, faults), dtype=float)
     if not are_texts(keys) or not keys:
         faults.append("keys: give a list of keys, such as ['bearing.hardness_MPa']")
-    scenes = checked_scenes(scenes, rtol, faults)
+    scenes = checked_scenes(scenes, rtol, faults, cycles.tolist())
     _check(scenes, keys)
     shape = (len(scenes), len(keys), len(cycles))
     result = Gradients(np.empty((shape[0], shape[2])), np.empty(shape), np.empty(shape))

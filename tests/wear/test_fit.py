@@ -172,10 +172,20 @@ def test_a_forecast_ends_with_the_load():
     found = wear.fit({"cycles": [20, 60], "wear_mm": [2e-5, 2e-4]}, scene, K, intervals=False)
     assert found.next_reading().cycles <= 60
     assert np.isfinite(found.life(1e-4)[0].interval_95).all()
-    with pytest.raises(wear.UsageError, match="ends after cycle 60"):
+    with pytest.raises(wear.UsageError, match="load is 60; name cycles"):
         found.forecast(61)
-    with pytest.raises(wear.UsageError, match="ends after cycle 60"):
+    with pytest.raises(wear.UsageError, match="load is 60; name cycles"):
         found.next_reading(61)
+
+
+def test_an_entry_of_a_list_may_be_free():
+    """The swing of the second block, from exact readings and another start."""
+    blocks = wear.Blocks(tuple(wear.Block(wear.Sine(swing, 0.06), 30) for swing in (2e-4, 5e-4)))
+    scene, key = replace(load_scene("section4"), load=blocks), "load.blocks[1].amplitude_mm"
+    cycles = [20, 40, 50, 60]
+    data = {"cycles": cycles, "wear_mm": wear.solve(scene, cycles, rtol=1e-12).u_c}
+    found = wear.fit(data, scene.with_({key: 4e-4}), key, intervals=False)
+    assert found.scenes[0].load.blocks[1].load.amplitude_mm == pytest.approx(5e-4, rel=1e-6)
 
 
 def test_the_jacobian_is_that_of_differences(found):

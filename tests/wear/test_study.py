@@ -108,6 +108,16 @@ def test_blocks_are_studied_as_they_are_run(tmp_path):
     assert made.bearing_wear_mm.values[1, 0] == pytest.approx(wear.solve(scene, [5]).u_c[0], 1e-7)
 
 
+def test_rows_whose_load_ends_too_early_fail_and_a_study_of_them_alone_is_refused(tmp_path):
+    blocks = wear.Blocks((wear.Block(wear.Sine(5e-4, 0.06), 3),))
+    scene = dataclasses.replace(wear.load_scene("section4"), load=blocks)
+    with pytest.raises(UsageError, match="load is 3; name cycles up to that"):
+        study(scene, "bearing.hardness_MPa=100,200", 5, tmp_path / "none.zarr")
+    made = study(scene, "load.blocks[0].cycles=3,6", 5, tmp_path / "study.zarr")
+    assert made.status.values.tolist() == [RowStatus.FAILED, 0]
+    assert "name cycles up to that" in str(made.reason.values[0])
+
+
 def test_an_invalid_first_row_is_a_row(tmp_path):
     made = study("section4", "bearing.hardness_MPa=0,100,-5", 5, tmp_path / "study.zarr")
     assert made.status.values.tolist() == [1, 0, 1]

@@ -15,6 +15,7 @@ K, HARDNESS = "bearing.wear_coefficient", "bearing.hardness_MPa=150,200"
 SECTION4 = wear.load_scene("section4")
 READ = {"cycles": [10, 100], "wear_mm": [3e-4, 8e-4]}
 TABLES, RECORD = SECTION4.to_tables(), {"kind": "table", "file": "pin.csv"}
+ENDS = replace(SECTION4, load=wear.Blocks((wear.Block(wear.Sine(5e-4, 0.06), 50),)))
 OPEN: Any = wear  # whose calls below are wrong on purpose
 
 
@@ -124,6 +125,10 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.bind_many(3),
         lambda: OPEN.gradients(["section4"], 3, [1]),
         lambda: OPEN.gradients(["section4"], [K], None),
+        lambda: wear.sweep([SECTION4, ENDS], [1, 51]),
+        lambda: wear.gradients([ENDS, SECTION4], [K], np.array([51.0])),
+        lambda: wear.sensitivity(ENDS, [51]),
+        lambda: OPEN.fit(READ, ENDS, K),
         lambda: OPEN.plot(3),
         lambda: OPEN.plot({"mine": 3}),
         lambda: OPEN.posterior(3, 3),

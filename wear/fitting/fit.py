@@ -29,7 +29,7 @@ from wear.load.spans import most_cycles
 from wear.numerics.gauss import FloatArray
 from wear.progress import Pace
 from wear.quantities import MOST_CYCLES
-from wear.request import is_number, whole_cycles
+from wear.request import check_end, is_number, whole_cycles
 from wear.states import notices_of_wear
 
 if TYPE_CHECKING:
@@ -118,11 +118,10 @@ class Fit(Estimate):
     def _ahead(self, cycles: float | Iterable[float]) -> FloatArray:
         """Return numbers of cycles within the loads as an array, or raise a `UsageError`."""
         faults = Faults()
-        wanted = np.array(whole_cycles(cycles, faults, least=1), dtype=float)
-        if wanted.max(initial=0.0) > self._last_cycle:
-            faults.append(f"cycles: the load ends after cycle {self._last_cycle}")
+        wanted = whole_cycles(cycles, faults, least=1)
+        check_end(self.scenes, wanted, faults)
         faults.stop_if_any()
-        return wanted
+        return np.array(wanted, dtype=float)
 
     def life(self, wear_mm: float) -> list[Forecast]:
         """Return the number of cycles to a wear depth of every specimen, with its 95 % band;

@@ -15,6 +15,7 @@ from wear.cycles import sweep
 from wear.faults import Faults, SceneError, UsageError
 from wear.fitting.readings import Specimen, read_readings, readings_of
 from wear.fitting.residuals import Residuals
+from wear.load.spans import most_cycles
 from wear.numerics.gauss import BoolArray, FloatArray, IntArray
 from wear.parameters import no_such_number, parameters_of
 from wear.scene import Scene, as_scene
@@ -288,14 +289,18 @@ def _faults(
         if value is None:
             yield f"free: {no_such_number(key, numbers)}"
         elif not _may_change(scene, key, value):
-            yield f"free: {key}: an entry of a list cannot be free"
+            yield f"free: {key}: no entry of the scene file, and cannot be free"
         elif value == 0.0 and is_positive(scene, key):
             yield f"free: {key} is 0 in the scene, and is sought as a factor: give it a start"
     for specimen in specimens:
+        named = f"specimen {specimen.name}: " * bool(specimen.name)
         try:
-            scene.with_(dict(specimen.changes))
+            last = most_cycles(scene.with_(dict(specimen.changes)).load)
         except SceneError as fault:
-            yield f"{f'specimen {specimen.name}: ' * bool(specimen.name)}{fault}"
+            yield f"{named}{fault}"
+        else:
+            if specimen.cycles[-1] > last:
+                yield f"{named}a reading after the end of the load, cycle {last}: drop it"
     parameters = len(free) + len(free_each) * len(specimens)
     readings = sum(len(specimen.cycles) for specimen in specimens)
     if specimens and readings < parameters:

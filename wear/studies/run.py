@@ -132,7 +132,7 @@ def prepare(
     """Return the checked request, or raise a `UsageError` with all its faults."""
     from wear.load import HistoryLoad
     from wear.parameters import no_such_number, parameters_of
-    from wear.request import ONE_PERIOD, check_rtol, is_number, whole_cycles
+    from wear.request import ONE_PERIOD, check_end, check_rtol, is_number, whole_cycles
     from wear.scene import as_scene
 
     base = as_scene(scene)
@@ -154,6 +154,8 @@ def prepare(
     except UsageError as fault:
         faults += [] if faults and not parsed else [str(fault)]
     wanted = whole_cycles(cycles, faults, least=1)
+    if not any(str(each.key).startswith("load.") for each in parsed):
+        check_end([base], wanted, faults)
     if len(set(wanted)) < len(wanted):
         faults.append("cycles: a number is given twice")
     if until_wear is not None and not (is_number(until_wear) and 0.0 < until_wear < 1e30):
