@@ -46,7 +46,9 @@ def execute(options: Options) -> Answer:
 
         life = cycles_until(scene, depth, rtol)
         if (way := life.reached[0].value) != "counted":
-            faults.append(f"--until-wear: {depth:g} mm: no derivative, since the cycles are {way}")
+            faults.append(
+                f"--until-wear: {depth:g} mm: no number of cycles, so no derivative ({way})"
+            )
             faults.stop_if_any()
         cycles = (*cycles, int(life.cycles[0]))
     with terminal.busy("counting cycles") as tell:
