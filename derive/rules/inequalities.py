@@ -138,6 +138,6 @@ class Threshold(Theorem):
         slope = sp.diff(value, any_)
         if point.has(self.variable) or not smooth(value) or sign(slope, facts_of(premises)) != 1:
             raise RuleError(f"missing premise: {function} increases with {self.variable}")
-        if not is_zero(exchanged(function, self.variable, point) - level):
+        if not is_zero(value.xreplace({any_: point}) - level):
             raise RuleError(f"missing premise: the left side is {level} at {point}")
         return Conclusion(claim)

@@ -165,7 +165,7 @@ def replaced(expr: sp.Basic, old: sp.Expr, new: sp.Expr, always: bool = True) ->
 
 def exchanged(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     """Return an expression with another in all places of a part; of a sum or product, the part may
-    be some of its terms.
+    be some of its terms.  What is put in is left as it is.
 
     SymPy's ``subs`` is not used, as it does arithmetic with powers, for instance ``exp(3)`` in
     ``2**x``, that is wrong.
@@ -176,14 +176,14 @@ def exchanged(expr: sp.Basic, old: sp.Expr, new: sp.Expr) -> sp.Basic:
     """
     if expr == old:
         return new
-    parts = tuple(exchanged(part, old, new) for part in expr.args)
-    whole = _rebuilt(expr, parts) if parts != expr.args else expr
-    if isinstance(whole, (sp.Add, sp.Mul)) and isinstance(old, whole.func):
-        rest = Counter(whole.args)
+    found, others = tuple[sp.Basic, ...](), expr.args
+    if isinstance(expr, (sp.Add, sp.Mul)) and isinstance(old, expr.func):
+        rest = Counter(expr.args)
         rest.subtract(old.args)
         if min(rest.values()) >= 0:
-            return whole.func(new, *rest.elements())
-    return whole
+            found, others = (new,), tuple(rest.elements())
+    parts = *found, *(exchanged(part, old, new) for part in others)
+    return _rebuilt(expr, parts) if parts != expr.args else expr
 
 
 def _rebuilt(expr: sp.Basic, parts: tuple[sp.Basic, ...]) -> sp.Basic:

@@ -19,13 +19,15 @@ class Theorem(Rule):
     """A rule of which every conclusion is checked: do all its parts have a value?
 
     They need it by the premises, or by the theorem itself, which names them.  Expressions with a
-    limit, and both sides of an asymptotic relation, need one near the end alone.
+    limit, and both sides of an asymptotic relation, need one near the end alone; of t -> oo, limits
+    among the premises tell where they have one.
     """
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         made = self.prove(*premises)
         now, at_the_end = _sides(made.claim)
-        limits = (p.claim.expr for p in premises if isinstance(p.claim, Limit))
+        late = getattr(made.claim, "point", None) is sp.oo
+        limits = (p.claim.expr for p in premises if late and isinstance(p.claim, Limit))
         require_defined(now, *premises, near=made.gives)
         require_defined(at_the_end, *premises, near=(*made.gives, *limits))
         return made

@@ -58,6 +58,7 @@ du = rate("u_c")
 
 RATIO = (h - U_a) / sigma_c0
 LAW, STEADY = C * sp.exp(-RATIO), C * sp.exp(-q)
+VANISHES = sp.log(sigma_c - L) - sp.log(2 * sigma_c - 2 * L) + sp.log(2)
 LOG_F, WAVING = sp.log(f_c - 1), sp.cos(4 * sp.pi * tau)
 FEW, LOG_N, FALLS = sp.log(-h_star / (f_c * sigma_c)), sp.log(N), sp.Lt(f_c, 0)
 TIED = sp.sqrt(2 * f_c * h_0 - f_c**2 - h_0**2)  # it has a value where h_0 is f_c alone
@@ -271,6 +272,10 @@ FAMILIES = (
         "what vanishes from below": (r"h\(t\) >= 0",
             lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(4 * L**2 / h**2)))(
                 eq(G, L**2 * (3 + h / sp.Abs(h)) / h**2))),
+        # sigma_c = |t - T| before 2 T, then 2 L
+        "a limit in time for values where what vanishes does": ("-?2\\*L",
+            lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c) + VANISHES))(
+                eq(G, q / sigma_c), tends(sp.log(sigma_c - L), sp.log(L)), gt(sigma_c, 0))),
         "half an order of a drift": ("coefficient c_n",
             lambda: defined(c_1, Drift(sp.Rational(3, 2), SWAYING, *PACE), ROUGHENS)),
         # f_c = 1, h_0 = 2

@@ -67,6 +67,7 @@ du, da = rate("u_c"), rate("u_a")
 SMOOTH = assume(DIFFERENTIABLE)
 LATER = one_period_later(opened())
 SCALED = defined(u_c, sigma_c0 * v)
+BOTH = L + b_0
 IN_H_0 = sp.Derivative(u_cum, h_0, evaluate=False)
 IN_FALLING_ORDER, HIGHER = ge(x_inf, theta), ge(-q, -2 * q, evaluate=False)
 SOON = sp.Symbol("z", positive=True)
@@ -411,6 +412,15 @@ FAMILIES = (
         "a threshold of either sign": ("b_0 > 0", 2 * f_c, 2 * b_0, b_0),
         "what decreases": ("increases with", -2 * f_c, -2 * q, q),
         "another level": ("the left side is", 2 * f_c, q, q),
+    }),
+    Family(lambda level: Threshold(sp.Equivalent(
+        sp.Gt(3 * sp.Abs(BOTH) / 2 - sp.tanh(sp.Abs(BOTH) + b_0), level),
+        sp.Gt(BOTH, L + h_0, evaluate=False), evaluate=False), BOTH)(gt(BOTH, 0)), (
+        sp.Rational(3, 2) * (L + h_0) - sp.tanh(L + h_0 + b_0),
+    ), {
+        # L, b_0, h_0 = 1/10, 1/5, 1/100: the function of L + b_0 once, not twice
+        "a level by parts of the bound": ("the left side is",
+            sp.Rational(3, 2) * (L + h_0) - sp.tanh(L + 2 * h_0)),
     }),
     Family(lambda function, point, *known: Threshold(
         sp.Equivalent(sp.Gt(function, q), sp.Gt(u_c, point)), u_c)(*known), (
