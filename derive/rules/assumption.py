@@ -51,8 +51,8 @@ class Assume(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
-        now = at_an_instant(relation)
-        instant = bool(clocks(now)) and all(map(constant, functions(now)))
+        parts = sp.And.make_args(at_an_instant(relation))
+        instant = any(clocks(part) and all(map(constant, functions(part))) for part in parts)
         named = kind is Kind.DEFINITION
         if (
             relation in (sp.true, sp.false)
@@ -67,6 +67,8 @@ class Assume(Rule):
         if law is not None and not is_contact_law(law):
             raise RuleError(f"missing premise: {law} is positive and smooth and decreases")
         claim = claim_of(relation)
+        if not named and relation.has(sp.Limit) and not isinstance(claim, Limit):
+            raise RuleError(f"missing premise: a value of the limit in {given.text}")
         equation = isinstance(claim, (Equality, Limit)) or relation == EXPANSION.relation
         if kind in _HIDDEN and not equation:
             raise RuleError(f"{given.text}: no equation")

@@ -271,7 +271,8 @@ def continuous(
     points = [goal.subs({plain[unknown]: end for unknown, end in at.items()}) for goal in goals]
     facts = (lasting_facts if always else facts_of)(premises)
     facts = frozenset(fact for fact in facts if not fact.has(*but))
-    return all(not goal.has(sp.oo, sp.zoo, sp.nan) and holds(goal, facts) for goal in points)
+    finite = all(end.is_finite is not False for end in at.values())
+    return finite and all(not g.has(sp.oo, sp.zoo, sp.nan) and holds(g, facts) for g in points)
 
 
 def continuity(

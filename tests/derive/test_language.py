@@ -243,6 +243,10 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.CONDITION, sp.Eq(t, 5), "cannot be assumed"),  # t = 4
     (Kind.CONDITION, sp.Lt(t, T * WIGGLE.subs(t, 0)), "cannot be assumed"),  # later
     (Kind.CONDITION, sp.Lt(t, sp.Integral(U_a, (t, 0, T))), "cannot be assumed"),  # later
+    (Kind.CONDITION, sp.And(sp.Gt(u_c, -h_0), sp.Lt(t, T)), "cannot be assumed"),  # later
+    (Kind.CONDITION, sp.Ne(forever(u_c), h_0), "a value of the limit"),  # u_c = C t: none
+    (Kind.CONDITION, sp.Eq(theta * forever(u_c), 0), "a value of the limit"),  # theta = 0
+    (Kind.CONDITION, sp.Ge(forever(u_c), h_0), "a value of the limit"),
     (Kind.CONDITION, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
     (Kind.DEFINITION, SlowEquation(f_c, h_0), "no equation"),  # it says what f_c is
     (Kind.CONDITION, Continuous(U_a, h), "no 1 parts"),

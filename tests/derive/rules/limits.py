@@ -157,7 +157,7 @@ FAMILIES = (
         "what is small is another": ("-> 0 as", FADING, 1 / u_c**2),
         "an exponential of either sign": ("f_c/q > 0", FADING, sp.exp(-f_c * u_c / q)),
         "a root of what is small": ("smooth function at", sp.sqrt(FADING), FADING),
-        "a bound of the growth": ("is no limit", U_a / u_c, 1 / u_c, le(forever(u_c), h_0)),
+        "a bound of the growth": ("is no limit", U_a / u_c, 1 / u_c, le(u_c, h_0)),
         "a growth that ends": ("-> oo", 1 / u_c, 1 / u_c, tends(u_c, h_0)),
     }),
     Family(lambda low, high, growth=DEEP: vanishes(given(sp.And(low, high)), growth), (
@@ -220,7 +220,7 @@ FAMILIES = (
         "a bound of which more is said": ("said of U", sp.Lt(U_a, h_0), *LOADED, lt(U, h_0)),
     }),
     Family(accumulates, (tends(du, 0), tends(du, C * b_0)), {
-        "a limit that is only bounded": ("is no limit", ge(forever(du), C)),  # u_c = 2 C t
+        "a limit that is only bounded": ("is no limit", ge(du, C)),  # u_c = 2 C t
         "a rate without limit": ("is finite", tends(du, sp.oo)),
     }),
     Family(some_of_the_time, (
