@@ -14,11 +14,15 @@ from tests.wear.reference_scenes import SHARP, SINE, made, reference_scene
 from tests.wear.test_cycle_count import between
 from wear import cycles as count
 from wear.binding import bind
+from wear.faults import AccuracyError
 from wear.load import Harmonics, Load, Sine, Table
+from wear.loss_of_contact import wear_ranges
 from wear.loss_of_contact.edge import edge_of_contact, turning_points
 from wear.loss_of_contact.grazing import grazing_wears
 from wear.loss_of_contact.period_map import switched_period_map
+from wear.orbit import abel
 from wear.scene import Scene, load_scene
+from wear.solver import solve
 
 UNEVEN = {  # rise slowly, then fast, and slowly again
     "harmonics": Harmonics(0.0, (), (5e-4, -2e-4), 0.06),
@@ -293,3 +297,20 @@ def test_wear_that_hardly_changes_itself_is_counted_to_a_depth():
     scene = load_scene("section4-cutoff").with_(numbers)
     found = count.first_passage(bind(scene), scene.periodic_load, np.array([1e-24, 1.0]), 1e-7)
     assert_allclose(found.cycles, [32221, np.inf], atol=1)
+
+
+def test_increments_that_are_rounding_errors_are_not_cut_on_and_on(monkeypatch):
+    """The closure is three roughnesses, up to rounding: contact is lost at once."""
+    panels, solve_abel = [0], abel.solve
+
+    def counted(grid, steps):
+        panels.append(len(grid.c))
+        return solve_abel(grid, steps)
+
+    monkeypatch.setattr(abel, "solve", counted)
+    scene = load_scene("section4-cutoff").with_(
+        {"support.stiffness_MPa_per_mm": 1e5, "load.kind": "constant", "load.value_mm": 0.0}
+    )
+    with pytest.raises(AccuracyError):
+        solve(scene, [10], rtol=1e-10, method="abel")
+    assert max(panels) <= 2 * wear_ranges.MOST_PANELS

@@ -39,6 +39,7 @@ MOST_WALKED = 120  # cycles on a series that are taken one by one
 SAMPLES, NEAR_END = 64, 32  # of a series, to estimate its number of cycles: equally far apart, and
 # each at half the distance to the end; where wear runs away, most of its cycles lie there
 MOST_CUTS = 16  # rounds of cutting panels in two
+MOST_PANELS = 500  # of a series that are too coarse: then its increments are rounding errors
 ENOUGH = 1.5  # cycles per coefficient of a panel
 SAME = 1e-9  # relative difference of two z that are one
 TOGETHER = 32  # series in one set of arrays
@@ -208,6 +209,7 @@ def solved(
         cycles = grid.widths / 2 * np.mean(((z + shift[of, None]) / steps)[:, :m], axis=1)
         short = cycles <= ENOUGH * m
         again = coarse & ~short & (rounds < MOST_CUTS - 1)
+        again &= np.bincount(of[again], minlength=len(fits))[of] <= MOST_PANELS
         done.append(take((of, density, residual, coarse & short), ~again))
         if not again.any():
             break
