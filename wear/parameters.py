@@ -22,6 +22,7 @@ from wear.load.spans import LoadSpan
 from wear.model import Real, Summation
 from wear.numerics.gauss import FloatArray, IntArray
 from wear.scene import Scene
+from wear.scene.text import path_of
 from wear.scene.variant import KEYS
 from wear.words import did_you_mean
 
@@ -96,9 +97,9 @@ def _entry(load: Load, key: str) -> float:
     >>> _entry(Harmonics(0.0, (1e-4, 2e-4), (), 1.0), "cosine_mm[1]")
     0.0002
     """
-    name, _, place = key.rstrip("]").partition("[")
-    value = getattr(load, name)
-    return float(value[int(place)] if place else value)
+    name, *places = path_of(key)
+    value = getattr(load, str(name))
+    return float(value[places[0]] if places else value)
 
 
 @dataclass(frozen=True)

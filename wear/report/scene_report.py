@@ -54,10 +54,6 @@ _INSIDE = (0, 10, 100, 1000)  # cycles whose pressure is drawn
 _LAST = 10**8  # cycle of the curves
 _POINTS = 120  # of a curve
 _EARLY = 1000  # cycles after which sensitivities are shown beside those at the last cycle
-_FORCES = (
-    *("peak_pin_reaction_N", "mean_pin_reaction_N", "sliding_distance_mm"),
-    *("friction_work_mJ_per_mm2", "friction_work_mJ"),
-)
 _BARS = 15  # of the tornado diagram
 
 
@@ -65,7 +61,6 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
     """Return the report of a scene, with the readings of `specimens` of it."""
     limit = None if isinstance(scene.load, Blocks | HistoryLoad) else asymptote(scene)
     curve = _solved(scene)
-    columns = curve.columns()
     inside = [n for n in _INSIDE if n < curve.cycles[-1]] or [0]
     pressures = None if limit is None else pressure_inside(scene, inside)
     equations = shown(_equations(scene, limit))
@@ -89,7 +84,7 @@ def report(scene: Scene, command: str, specimens: Sequence[Specimen] = ()) -> Do
         ],
         "identifiers": list(equations),
         "states": [n for n, cycle in enumerate(curve.cycles[:-1]) if _power_of_ten(cycle)] + [-1],
-        "forces": {name: columns[name] for name in _FORCES if name in columns},
+        "columns": curve.columns(),
         "life": list(_life(scene)) if obstacle(scene) is None else [],
         "loses_contact": bool(np.any(curve.pressures.contact_fraction < 1.0)),
         "command": command,
