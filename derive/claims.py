@@ -23,7 +23,7 @@ from sympy.logic.boolalg import Boolean
 from sympy.printing.pretty.pretty import PrettyPrinter
 from sympy.printing.pretty.stringpict import prettyForm
 
-from . import near_one  # noqa: F401 - repairs SymPy before any sign is decided
+from . import signs  # noqa: F401 - signs of numbers by balls, before any is decided
 
 landau_o = sp.Function("o", real=True)
 """Landau's o: a term that is negligible against its argument, as in ``u = F + o(1)``."""

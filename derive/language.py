@@ -31,6 +31,7 @@ from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Ter
 from .laws import GENERAL
 from .note.model import FIELDS
 from .parts import bound, guessed, is_slope_of_law
+from .signs import misjudged
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
 _HASH = sp.Basic.__hash__
@@ -133,7 +134,7 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
-    if kind is sp.Integral and guessed(node):
+    if (kind is sp.Integral and guessed(node)) or (node.args and misjudged(node)):
         return f"{node} has a sign without proof"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
         return f"{node.rhs} cannot be a limit: it varies"

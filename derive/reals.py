@@ -27,6 +27,7 @@ from sympy.core.relational import Relational
 from .claims import HasValue
 from .laws import GENERAL
 from .parts import certain, is_slope_of_law, needs
+from .signs import ball
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""
@@ -34,7 +35,8 @@ LAW = GENERAL.phi.func
 EFFORT = 3_000_000
 """Number of z3's steps after which a side condition counts as not proved; independent of time."""
 
-_BALL = {sp.exp: flint.arb.exp, sp.log: flint.arb.log, sp.tanh: flint.arb.tanh}
+_BITS = 53
+"""Precision of the ball that is known of a constant."""
 _RELATIONS = {
     sp.Equality: lambda a, b: a == b,
     sp.Unequality: lambda a, b: a != b,
@@ -180,21 +182,17 @@ class _Translator:
         if isinstance(expr, (sp.Symbol, AppliedUndef)):
             signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
             self.known += [known for given, known in signs.items() if getattr(expr, given)]
-        if expr is sp.pi or (type(expr) in _BALL and expr.args[0].is_Rational):
-            self.known += [name >= _rational(expr, -1), name <= _rational(expr, 1)]
+        if expr.is_number and (known := ball(expr, _BITS)).is_finite():
+            self.known += [name >= _rational(known.lower()), name <= _rational(known.upper())]
 
 
 class _Root(sp.Expr):
     """The square root of its argument, as an opaque part."""
 
 
-def _rational(expr: sp.Expr, side: int) -> z3.ArithRef:
-    """Return a rational number that bounds a constant below (-1) or above (1)."""
-    if expr is sp.pi:
-        ball = flint.arb.pi()
-    else:
-        ball = _BALL[type(expr)](flint.arb(flint.fmpq(expr.args[0].p, expr.args[0].q)))
-    man, exp = (ball.lower() if side < 0 else ball.upper()).man_exp()
+def _rational(end: flint.arb) -> z3.ArithRef:
+    """Return the end of a ball for z3."""
+    man, exp = end.man_exp()
     value = sp.Integer(int(man)) * sp.Integer(2) ** int(exp)
     return z3.Q(int(value.p), int(value.q))
 
