@@ -31,7 +31,8 @@ _FUNCTIONS: dict[type, Callable[..., arb]] = {
     type(sp.pi): arb.pi,
     type(sp.E): arb.const_e,
     **{sp.exp: arb.exp, sp.log: arb.log, sp.tanh: arb.tanh, sp.sin: arb.sin, sp.cos: arb.cos},
-    **{sp.Abs: abs, sp.LambertW: arb.lambertw, sp.Ei: arb.ei},
+    **{sp.Abs: abs, sp.Ei: arb.ei, sp.Pow: lambda base, exponent: base**exponent},
+    sp.LambertW: lambda x, branch=None: x.lambertw() if branch is None else arb("nan"),
     sp.besseli: lambda order, x: x.bessel_i(order),
     sp.Add: lambda *terms: reduce(add, terms),
     sp.Mul: lambda *factors: reduce(mul, factors),
@@ -84,7 +85,7 @@ def misjudged(number: sp.Expr) -> bool:
 def _is_foreign(number: sp.Expr) -> bool:
     """Return whether a number has heads that no claim may hold; SymPy decides its sign."""
     parts = sp.preorder_traversal(number)
-    others = (p for p in parts if not (p.is_Rational or p.is_Pow or type(p) in _FUNCTIONS))
+    others = (part for part in parts if not part.is_Rational and type(part) not in _FUNCTIONS)
     return any(others) and not number.has(*_UNKNOWN)
 
 

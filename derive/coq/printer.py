@@ -22,7 +22,6 @@ from ..symbols import CLOCKS, QUANTITIES, t
 
 _FUNCTIONS = {
     sp.tanh: "tanh", sp.exp: "exp", sp.log: "ln", sp.Abs: "Rabs", sp.cos: "cos", sp.sin: "sin",
-    sp.Min: "Rmin", sp.Max: "Rmax",
 }  # fmt: skip
 _WORDS = (
     "phi PI Rpower sqrt Rle_dec tends diverges continuous continuous_in_time ex_derive Derive RInt "

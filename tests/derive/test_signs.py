@@ -80,7 +80,10 @@ def test_no_quadrature_decides_a_sign() -> None:
     assert area.is_positive is None
 
 
-def test_other_numbers_are_left_to_sympy() -> None:
+def test_numbers_outside_of_claims_have_signs_too() -> None:
+    assert 2**sp.pi > 8
+    assert (-sp.pi) ** 3 < -31
+    assert sp.Le(sp.LambertW(-sp.S.Half / 2, -1), 0) is not sp.false
     assert sp.gamma(sp.Rational(1, 3)) > 2
     assert sp.Float("1.5") + sp.pi > 4
     assert sp.pi < sp.oo
