@@ -129,6 +129,8 @@ def _fault(node: sp.Basic) -> str | None:
             return f"{node} is at no time"
         own = vars(node).keys() - {"nargs"}
         return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
+    if any(not variable.is_Symbol for variable in bound(node)):
+        return f"{node} binds a quantity that is no variable"
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
     if len(dict(inner)) < len(inner):
         return f"{node} has two variables of one name"
@@ -173,14 +175,16 @@ def _is_cut(pieces: sp.Piecewise) -> bool:
 
 
 def _is_slope(node: sp.Derivative) -> bool:
-    """Return whether a derivative is the first one of a field in time, of the law, or of a name."""
+    """Return whether a derivative is the first one of a field in time, of the law as a function of
+    its variable, or of a name."""
     function, (variable, order), *others = node.args
     if others or order != 1:
         return False
     if function.is_Symbol:
         return str(variable) in DATA
-    by_time = ((t, t), (t + _PERIOD, t), (_CYCLE[0], _CYCLE[0]))
-    times = ((variable, variable),) if isinstance(function, _LAW) else by_time
+    if isinstance(function, _LAW):
+        return function.args == (variable,) and str(variable) not in CLOCKS
+    times = ((t, t), (t + _PERIOD, t), (_CYCLE[0], _CYCLE[0]))
     return isinstance(function, AppliedUndef) and (function.args[0], variable) in times
 
 

@@ -34,7 +34,7 @@ class Substitute(Rule):
             if not claim.relation.has(known.lhs):
                 raise RuleError(f"{known.lhs} does not occur in {claim.relation}")
             variable = getattr(claim, "variable", t)
-            taken = {variable} & known.relation.free_symbols - {t}
+            taken = variable != t and known.relation.has(variable)
             if taken or known.lhs in bound_in(claim.relation) | {variable} - {t}:
                 raise RuleError(f"missing premise: {known.lhs} may take every value")
             claim = _put(claim, known, lasts(definition))

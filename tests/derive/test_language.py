@@ -168,6 +168,13 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(b_0, (f_c, 0, 1)), "fixed"),  # b_0 = L f_c
     (sp.Integral(u_c * T, (T, 1, 2)), "fixed"),
     (FirstZero(b_0 - h_0, h_0), "fixed"),
+    # as a name for theta, u_c would make it an integral over theta
+    (sp.Integral(theta * u_c, (u_c, 0, q)), "no variable"),
+    (sp.Integral(theta * initial("u_c"), (initial("u_c"), 0, q)), "no variable"),
+    (sp.Derivative(LAW(h), h), "no variable"),  # no rate
+    (sp.Derivative(LAW(SWAYS), SWAYS), "no variable"),  # that of no field
+    (sp.Subs(sp.Derivative(LAW(U_a), U_a), t, -q), "no variable"),  # before the start
+    (sp.Derivative(LAW(t), t), "no rate"),
     (sp.Subs(b_0, f_c, 1), "no slope"),
     (sp.Subs(rate("u_c"), t, T), "no slope"),  # of that no premise speaks
     (sp.Integral(N, (t, 0, T)), "fixed"),  # T/2, not N T
