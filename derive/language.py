@@ -27,7 +27,16 @@ from sympy.core.relational import Relational
 from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.printing.latex import accepted_latex_functions
 
-from .claims import Continuous, Drift, FirstZero, Oscillation, SlowEquation, Term, landau_o
+from .claims import (
+    Continuous,
+    Drift,
+    FirstZero,
+    Oscillation,
+    Predicate,
+    SlowEquation,
+    Term,
+    landau_o,
+)
 from .laws import GENERAL
 from .note.model import FIELDS
 from .parts import bound, guessed, is_slope_of_law
@@ -58,7 +67,15 @@ _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
     **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
 }
-_TERMS = (sp.Limit, sp.Integral, sp.Piecewise, sp.LambertW, sp.Ei, FirstZero, Term)
+_PARTS_OF: dict[type, tuple[type | tuple[type, ...], type | tuple[type, ...]]] = {
+    **dict.fromkeys((sp.Integral, sp.Derivative, sp.Subs), (sp.Expr, sp.Tuple)),
+    sp.Lambda: (sp.Tuple, sp.Expr),
+    sp.Piecewise: (ExprCondPair, ExprCondPair),
+    ExprCondPair: (sp.Expr, (Relational, type(sp.true))),
+    **dict.fromkeys((sp.And, sp.Equivalent), ((Relational, Predicate),) * 2),
+}
+"""The types of the first part of a node, and of the others, where these are not numbers."""
+_TERMS = (sp.Limit, sp.Integral, sp.Piecewise, sp.LambertW, sp.Ei, FirstZero, Term, landau_o)
 """Heads of terms, which are in no function or power, nor in another term."""
 _BODIES = (sp.Integral, sp.Piecewise, FirstZero, Term)
 """Heads of terms without derivatives."""
@@ -115,6 +132,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{kind.__name__} is of no kind that a claim may hold"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
         return f"{node} has no {_PARTS[kind]} parts"
+    if not _is_typed(node):
+        return f"{node} has a part of another type"
     wanted, fits = _FORMS.get(kind, ("", bool))
     if wanted and not fits(node):
         return f"{node} is no {wanted}"
@@ -140,10 +159,19 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has a sign without proof"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
         return f"{node.rhs} cannot be a limit: it varies"
-    numbers = all(isinstance(side, sp.Expr) for side in node.args) and not node.has(sp.Lambda)
-    if isinstance(node, Relational) and not numbers:
-        return f"{node} is no relation between numbers"
     return None
+
+
+def _is_typed(node: sp.Basic) -> bool:
+    """Return whether the parts of a node are numbers, or what belongs there in their place.
+
+    SymPy would take the contact law of a relation.  Functions are fields of rules, no parts.
+    """
+    parts = node.args[:2] if isinstance(node, sp.Limit) else node.args
+    first, others = _PARTS_OF.get(type(node), (sp.Expr, sp.Expr))
+    kinds = (first, *[others] * len(parts[1:]))
+    pairs = zip(parts, kinds, strict=True) if parts else ()
+    return all(isinstance(part, kind) and type(part) is not sp.Lambda for part, kind in pairs)
 
 
 def _is_evaluated(node: sp.Basic) -> bool:
@@ -194,6 +222,11 @@ def _is_wave(node: sp.Expr) -> bool:
     return any(number.is_Integer for number in turns)
 
 
+def _is_of_field(node: Continuous) -> bool:
+    (field,) = node.args
+    return isinstance(field, AppliedUndef) and field.func not in _FUNCTIONS
+
+
 def _is_of_data(zero: FirstZero) -> bool:
     """Return whether the expression of a first zero varies with nothing but its variable."""
     function, variable = zero.args
@@ -211,6 +244,8 @@ _FORMS: dict[type, tuple[str, Callable[[sp.Basic], bool]]] = {
     sp.Piecewise: ("value that is 0 beyond a bound", _is_cut),
     sp.Derivative: ("rate and no slope of a name", _is_slope),
     sp.Subs: ("slope of the contact law", is_slope_of_law),
+    Continuous: ("property of a field", _is_of_field),
+    SlowEquation: ("equation of m and s_0", lambda node: all(e.is_Symbol for e in node.args)),
     sp.Limit: ("limit for t -> oo", lambda node: node.args[1:3] == (t, sp.oo)),
     sp.Integral: (
         "integral between two ends",

@@ -80,7 +80,7 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
 def is_slope_of_law(expr: sp.Basic) -> bool:
     """Return whether an expression is the first derivative of the unspecified contact law."""
     if isinstance(expr, sp.Subs):
-        return len(expr.variables) == 1 and is_slope_of_law(expr.expr)
+        return is_slope_of_law(expr.expr) and expr.expr.variables == expr.variables
     return isinstance(expr, sp.Derivative) and (
         expr.derivative_count == 1 and expr.expr == _LAW(expr.variables[0])
     )

@@ -132,7 +132,7 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (x + sp.Symbol("x", positive=True), "one name"),
     (sp.Symbol("x1", real=True) + sp.Symbol("x_1", real=True), "one name"),
     (sp.Integral(x + HIDDEN, (HIDDEN, 0, 1)), "two variables of one name"),  # looks like 2 x
-    (sp.Lambda(x, 2 * x), "no relation between numbers"),
+    (sp.Lambda(x, 2 * x), "another type"),
     (FirstZero(q), "no 2 parts"),
     (sp.Symbol("pi", positive=True), "no real quantity"),
     (sp.Symbol("oo", real=True), "no real quantity"),
@@ -173,8 +173,21 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(theta * initial("u_c"), (initial("u_c"), 0, q)), "no variable"),
     (sp.Derivative(LAW(h), h), "no variable"),  # no rate
     (sp.Derivative(LAW(SWAYS), SWAYS), "no variable"),  # that of no field
-    (sp.Subs(sp.Derivative(LAW(U_a), U_a), t, -q), "no variable"),  # before the start
+    (sp.Subs(sp.Derivative(LAW(U_a), U_a), t, -q), "no slope"),  # before the start
     (sp.Derivative(LAW(t), t), "no rate"),
+    (sp.Subs(sp.Derivative(LAW(x), x), y, q), "no slope"),
+    # the law of no number
+    (LAW(sp.true), "another type"),
+    (LAW(U_a <= q), "another type"),
+    (LAW(Continuous(U_a)), "another type"),
+    (sp.Subs(sp.Derivative(LAW(x), x), x, U_a <= q), "another type"),
+    (sp.exp(sp.Lambda(x, x**2)), "another type"),
+    (sp.Integral(sp.Tuple(x, q), (x, 0, q)), "another type"),
+    (FirstZero(sp.Tuple(x, q), x), "another type"),
+    (FirstZero(x <= q, x), "another type"),
+    (sp.Limit(U_a <= q, t, sp.oo), "another type"),
+    (sp.Piecewise((x <= q, x <= f_c), (0, True)), "another type"),
+    (sp.exp(landau_o(q)), "not in a sum"),
     (sp.Subs(b_0, f_c, 1), "no slope"),
     (sp.Subs(rate("u_c"), t, T), "no slope"),  # of that no premise speaks
     (sp.Integral(N, (t, 0, T)), "fixed"),  # T/2, not N T
@@ -262,7 +275,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
     (Kind.CONDITION, equal(forever(u_c), C * t), "cannot be a limit"),
     (Kind.CONDITION, equal(forever(u_c), C * PHASED), "cannot be a limit"),
-    (Kind.CONDITION, sp.Eq(f_c > 0, sp.true, evaluate=False), "no relation between numbers"),
+    (Kind.CONDITION, sp.Eq(f_c > 0, sp.true, evaluate=False), "another type"),
     (Kind.MODEL, touching(-sp.S.One), "no equation of the model"),  # p > 0
     (Kind.MODEL, contact(ContactLaw("", sp.exp(r), sp.S.Zero, "")), "decreases"),
     (Kind.MODEL, contact(ContactLaw("", sp.exp(-r - sp.Abs(r) / 2), sp.S.Zero, "")), "smooth"),
