@@ -1,11 +1,12 @@
 """The signs of numbers, by balls: in place of SymPy's, which are not always right.
 
 Overview
-    SymPy decides relations between numbers, and with them absolute values and pieces, by numerical
-    values whose accuracy it takes on trust: ``log(1 + exp(-30))`` and
-    ``tanh(sqrt(1 + exp(-300)) - 1)`` are 0 to it, and false claims would follow.  Importing this
-    module replaces its two numerical decisions by that of a ball.  A sign that no ball decides is
-    left open.
+    SymPy decides relations between numbers, and with them absolute values, pieces and roots, by
+    numerical values whose accuracy it takes on trust, and by its theory of algebraic numbers:
+    ``log(1 + exp(-30))`` and ``tanh(sqrt(1 + exp(-300)) - 1)`` are 0 to it, and
+    ``(1 + 1/(1 + sqrt(2)))**2 - 2``, which is 0, is not.  False claims would follow.  Importing
+    this module replaces these decisions by that of a ball.  A sign that no ball decides, such as
+    that of a zero in disguise, is left open.
 Key results
     known_ball(number, bits)    a ball that contains a number, or None
     sign_of(number)             1, -1 or None
@@ -19,7 +20,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache, reduce
+from importlib import import_module
 from operator import add, mul
+from typing import Any
 
 import sympy as sp
 from flint import arb, ctx, fmpq
@@ -37,6 +40,13 @@ _FUNCTIONS: dict[type, Callable[..., arb]] = {
     sp.Add: lambda *terms: reduce(add, terms),
     sp.Mul: lambda *factors: reduce(mul, factors),
 }
+_FACTS: dict[str, tuple[int, ...]] = {
+    **dict.fromkeys(("positive", "nonnegative"), (1,)),
+    **dict.fromkeys(("negative", "nonpositive"), (-1,)),
+    **{"zero": (), "nonzero": (1, -1)},
+}
+_FACTS |= {f"extended_{fact}": signs for fact, signs in _FACTS.items()}
+"""The assumptions on signs, with the signs for which they hold."""
 _UNKNOWN = (sp.Integral, sp.Limit, sp.Derivative, sp.Subs, sp.Piecewise)
 """Heads that a claim may hold and that have no ball; SymPy would take a quadrature, or the like."""
 
@@ -82,35 +92,58 @@ def misjudged(number: sp.Expr) -> bool:
     return found is not None and (kept[found] is False or kept[-found] is True)
 
 
-def _is_foreign(number: sp.Expr) -> bool:
-    """Return whether a number has heads that no claim may hold; SymPy decides its sign."""
+def _has_ball(number: sp.Expr) -> bool:
+    """Return whether an expression is a number that a claim may hold, no atom; SymPy decides the
+    signs of others."""
+    if not number.args or not number.is_number:
+        return False
     parts = sp.preorder_traversal(number)
     others = (part for part in parts if not part.is_Rational and type(part) not in _FUNCTIONS)
-    return any(others) and not number.has(*_UNKNOWN)
+    return not any(others) or number.has(*_UNKNOWN)
+
+
+def _asked(fact: str, expr: sp.Expr) -> bool | None:
+    """Decide an assumption about an expression, in SymPy's place."""
+    if not _has_ball(expr):
+        return _of_sympy(fact, expr)
+    if fact in _FACTS:
+        found = sign_of(expr)
+        return None if found is None else found in _FACTS[fact]
+    told = _of_sympy(fact, expr)
+    for sign in _FACTS.keys() & expr._assumptions.keys():  # deduced from others, such as irrational
+        del expr._assumptions[sign]
+    return told
 
 
 def _is_of_sign(number: sp.Expr, positive: bool) -> bool | None:
-    """Decide ``is_positive`` or ``is_negative`` of an expression without free symbols."""
-    if not number.is_number:
-        return None
-    if _is_foreign(number):
-        return _of_sympy(number, positive)
+    """Decide ``is_positive`` or ``is_negative`` by a numerical value."""
+    if not _has_ball(number):
+        return _by_value(number, positive)
     found = sign_of(number)
     return None if found is None else (found > 0) == positive
 
 
 def _difference(a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
     """Return a number with the sign of a - b, which decides relations; None to leave them open."""
-    if not (a.is_number and b.is_number):
-        return None
-    if _is_foreign(a - b):
+    if not (a.is_number and b.is_number) or not _has_ball(a - b):
         return _difference_of_sympy(a, b)
     found = sign_of(a - b)
     return found and sp.Integer(found)
 
 
-_of_sympy = sp.Expr._eval_is_extended_positive_negative
+def _power(self: sp.Pow, exponent: sp.Expr) -> sp.Expr | None:
+    """Return a power of a power as one; None to leave it, as the sign of the base is open."""
+    is_open = _has_ball(self.base) and sign_of(self.base) is None
+    return None if is_open and not exponent.is_Integer else _power_of_sympy(self, exponent)
+
+
+assumptions: Any = import_module("sympy.core.assumptions")  # not the function in ``sympy.core``
+_of_sympy = assumptions._ask
+_by_value = sp.Expr._eval_is_extended_positive_negative
 _difference_of_sympy = relational._n2
+_power_of_sympy = sp.Pow._eval_power
+assumptions._ask = _asked
 sp.Expr._eval_is_extended_positive_negative = _is_of_sign
 relational._n2 = _difference
+sp.Pow._eval_power = _power
 clear_cache()  # of decisions made before

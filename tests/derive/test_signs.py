@@ -22,12 +22,13 @@ from derive.signs import ball, sign_of
 from derive.symbols import rate, symbols, t
 from tests.derive.judgements import defined, eq, ge
 
-u_c, G, h, h_0, x_inf, theta, q, kappa, C = symbols("u_c G h h_0 x_inf theta q kappa C")
+u_c, G, h, h_0, x_inf, theta, q, kappa, C, f_c = symbols("u_c G h h_0 x_inf theta q kappa C f_c")
 y = sp.Symbol("y", real=True)
 LITTLE = sp.log(1 + sp.exp(-30))
 LESS = sp.log(1 + sp.Rational(1, 10**20)) - sp.Rational(1, 10**30)
 NEXT_TO_NOTHING = sp.sqrt(1 + sp.exp(-300)) - 1
 ZERO = sp.pi * LITTLE - sp.pi * (sp.log(sp.exp(30) + 1) - 30)
+DISGUISED = (1 + 1 / (1 + sp.sqrt(2))) ** 2 - 2
 BEYOND = sp.sqrt(1 + sp.exp(-(10**6))) - 1
 GROWN = Arithmetic(sp.Ge(t, t, evaluate=False))
 
@@ -72,6 +73,24 @@ def test_a_sign_that_no_ball_decides_is_left_open() -> None:
         assert sp.Le(above, 0) not in (sp.true, sp.false)
     assert ZERO.is_nonzero is None
     assert sp.log(1) == 0
+
+
+@pytest.mark.parametrize("zero", [ZERO, DISGUISED, sp.log(DISGUISED / 2 + 1)])
+def test_a_zero_in_disguise_is_not_told_to_be_another_number(zero: sp.Expr) -> None:
+    assert zero.is_irrational is not False  # from which SymPy would deduce that it is not 0
+    for sign in ("zero", "nonzero", "positive", "negative", "extended_nonzero"):
+        assert getattr(zero, f"is_{sign}") is None
+    assert sp.Ne(zero, 0) not in (sp.true, sp.false)
+    assert (zero * f_c).is_nonzero is None
+
+
+def test_roots_of_a_number_without_a_sign_stay_roots() -> None:
+    """SymPy would take log(1 + e) for 0, and so a root of 1/b for -1/sqrt(b)."""
+    e = sp.Rational(1, 2**10000) * sp.exp(-6000)
+    b = sp.log(1 + e) - e / 2
+    for whole in (1 / b, b**2, b**3, b**-3):
+        assert sp.sqrt(whole) == sp.Pow(whole, sp.S.Half, evaluate=False)
+    assert sp.sqrt((4 - sp.pi) ** -3) == (4 - sp.pi) ** sp.Rational(-3, 2)
 
 
 def test_no_quadrature_decides_a_sign() -> None:
@@ -138,6 +157,7 @@ FALSE: dict[str, Callable[[], Judgement]] = {
     "a tiny growth downwards": lambda: Diverges(-sp.tanh(NEXT_TO_NOTHING) * t)(GROWN()),
     "a negative rate": lambda: unbounded(eq(rate("u_c"), -LESS * C)),
     "division by 0": lambda: Solve(G)(eq(ZERO * G, ZERO * h)),
+    "division by a zero in disguise": lambda: Solve(G)(eq(DISGUISED * G, DISGUISED * h)),
     "1 < 0": lambda: Arithmetic(sp.Le(sp.tanh(NEXT_TO_NOTHING), 0, evaluate=False))(),
 }  # fmt: skip
 """What would follow from a wrong sign."""
