@@ -39,7 +39,8 @@ from .claims import (
 )
 from .laws import GENERAL
 from .note.model import FIELDS
-from .parts import bound, guessed, is_slope_of_law
+from .parts import bound, guessed, is_slope_of_law, nonnegative, positive
+from .reals import holds
 from .signs import misjudged
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
@@ -296,8 +297,8 @@ def _held_fixed(node: sp.Basic) -> str:
 def _leaves_domain(node: sp.Basic) -> str | None:
     """Return the fault of a variable with a value outside its domain, such as a negative time."""
     for name, value in _taken(node):
-        inside = value.is_positive if name.is_positive else value.is_nonnegative
-        if name.is_nonnegative and not inside:
+        inside = positive(value) if name.is_positive else nonnegative(value)
+        if name.is_nonnegative and not holds(inside):
             return f"{name} is never {value}"
     return None
 

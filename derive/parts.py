@@ -4,6 +4,7 @@ Key results
     bound         the variables that one node binds: of an integral, a limit, a derivative
     certain       the parts that are defined wherever the whole is
     needs         the conditions for an expression to be defined, if its arguments are
+    positive, nonnegative, nonzero    the sign of an expression, as a relation to be proved
     guessed       whether SymPy may decide the sign of an integral without proof
 """
 
@@ -64,17 +65,32 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
     if isinstance(expr, sp.Pow):
         base, exponent = expr.args
         if exponent.is_Integer:
-            return (sp.Ne(base, 0),) if exponent.is_negative else ()
+            return (nonzero(base),) if exponent.is_negative else ()
         relation = sp.Ge if exponent.is_positive else sp.Gt
         return (relation(base, 0, evaluate=False),)
     if isinstance(expr, sp.log):
-        return (sp.Gt(expr.args[0], 0),)
+        return (positive(expr.args[0]),)
     if isinstance(expr, sp.LambertW):
-        return (sp.Ge(expr.args[0] + sp.exp(-1), 0, evaluate=False),)
+        return (nonnegative(expr.args[0] + sp.exp(-1)),)
     if isinstance(expr, sp.Ei):
-        return (sp.Ne(expr.args[0], 0),)
+        return (nonzero(expr.args[0]),)
     partial = isinstance(expr, sp.Function) and not isinstance(expr, _TOTAL)
     return (unknown,) if partial and not isinstance(expr, AppliedUndef) else ()
+
+
+def positive(expr: sp.Expr) -> sp.Basic:
+    """Return ``expr > 0``, which SymPy has not evaluated."""
+    return sp.Gt(expr, 0, evaluate=False)
+
+
+def nonnegative(expr: sp.Expr) -> sp.Basic:
+    """Return ``expr >= 0``, which SymPy has not evaluated."""
+    return sp.Ge(expr, 0, evaluate=False)
+
+
+def nonzero(expr: sp.Expr) -> sp.Basic:
+    """Return ``expr != 0``, which SymPy has not evaluated."""
+    return sp.Ne(expr, 0, evaluate=False)
 
 
 def is_slope_of_law(expr: sp.Basic) -> bool:

@@ -16,6 +16,8 @@ References
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterator
 from functools import cache
 
 import flint
@@ -26,17 +28,18 @@ from sympy.core.relational import Relational
 
 from .claims import HasValue
 from .laws import GENERAL
-from .parts import certain, is_slope_of_law, needs
+from .parts import certain, is_slope_of_law, needs, positive
 from .signs import ball
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""
 
+_DIGITS = 4000
+"""Greatest binary exponent of the ends of a ball: z3 reads numbers as text, of limited length."""
+
 EFFORT = 3_000_000
 """Number of z3's steps after which a side condition counts as not proved; independent of time."""
 
-_BITS = 53
-"""Precision of the ball that is known of a constant."""
 _RELATIONS = {
     sp.Equality: lambda a, b: a == b,
     sp.Unequality: lambda a, b: a != b,
@@ -134,9 +137,16 @@ class _Translator:
         return _RELATIONS[type(relation)](*map(self.number, relation.args))
 
     def number(self, expr: sp.Expr) -> z3.ArithRef:
-        """Return an expression for z3, with opaque parts except in polynomials, roots, pieces."""
+        """Return an expression for z3; a constant is known by a ball, too."""
         if isinstance(expr, sp.Rational):
             return z3.RealVal(str(expr))
+        value = self._composed(expr)
+        if expr.is_number and (known := ball(expr)) is not None:
+            self.known += _in_ball(value, known)
+        return value
+
+    def _composed(self, expr: sp.Expr) -> z3.ArithRef:
+        """Return an expression with opaque parts, except in polynomials, roots and pieces."""
         if isinstance(expr, sp.Add):
             return z3.Sum(*map(self.number, expr.args))
         if isinstance(expr, sp.Mul):
@@ -170,9 +180,13 @@ class _Translator:
             inside = self.number(expr.args[0])
             self.known.append(z3.Implies(inside >= 0, z3.And(name >= 0, name * name == inside)))
         elif isinstance(expr, sp.tanh):
-            signs = {"is_positive": name > 0, "is_negative": name < 0}
-            self.known += [name > -1, name < 1]
-            self.known += [known for given, known in signs.items() if getattr(expr.args[0], given)]
+            inside = self.number(expr.args[0])
+            self.known += [
+                name > -1,
+                name < 1,
+                (name > 0) == (inside > 0),
+                (name < 0) == (inside < 0),
+            ]
         elif isinstance(expr, (sp.sin, sp.cos)):
             self.known += [name >= -1, name <= 1]
         elif isinstance(expr, (sp.exp, LAW)):
@@ -182,19 +196,21 @@ class _Translator:
         if isinstance(expr, (sp.Symbol, AppliedUndef)):
             signs = {"is_positive": name > 0, "is_negative": name < 0, "is_nonnegative": name >= 0}
             self.known += [known for given, known in signs.items() if getattr(expr, given)]
-        if expr.is_number and (known := ball(expr, _BITS)).is_finite():
-            self.known += [name >= _rational(known.lower()), name <= _rational(known.upper())]
 
 
 class _Root(sp.Expr):
     """The square root of its argument, as an opaque part."""
 
 
-def _rational(end: flint.arb) -> z3.ArithRef:
-    """Return the end of a ball for z3."""
-    man, exp = end.man_exp()
-    value = sp.Integer(int(man)) * sp.Integer(2) ** int(exp)
-    return z3.Q(int(value.p), int(value.q))
+def _in_ball(value: z3.ArithRef, known: flint.arb) -> Iterator[z3.BoolRef]:
+    """Yield the ends of a ball that are no giants, and its sign, as what is known of a value."""
+    for order, end in ((operator.ge, known.lower()), (operator.le, known.upper())):
+        man, exp = map(int, end.man_exp())
+        if abs(exp) < _DIGITS:
+            bound = sp.Integer(man) * sp.Integer(2) ** exp
+            yield order(value, z3.Q(int(bound.p), int(bound.q)))
+    if not known.contains(0):
+        yield value > 0 if known > 0 else value < 0
 
 
 def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:
@@ -204,7 +220,7 @@ def sign(expr: sp.Expr, facts: frozenset[sp.Basic] = frozenset()) -> int | None:
     >>> sign(1 + sp.tanh(y)), sign(sp.tanh(y) - 1), sign(y), sign(1 - y / sp.sqrt(1 + y**2))
     (1, -1, None, 1)
     """
-    for found, goal in ((1, sp.Gt(expr, 0)), (-1, sp.Lt(expr, 0))):
+    for found, goal in ((1, positive(expr)), (-1, positive(-expr))):
         if holds(goal, facts):
             return found
     return None

@@ -8,9 +8,9 @@ Overview
     this module replaces these decisions by that of a ball.  A sign that no ball decides, such as
     that of a zero in disguise, is left open.
 Key results
-    known_ball(number, bits)    a ball that contains a number, or None
-    sign_of(number)             1, -1 or None
-    misjudged(number)           whether SymPy decided otherwise before
+    ball(number)        a ball that contains a number, or None
+    sign_of(number)     1, -1 or None
+    misjudged(number)   whether SymPy decided otherwise before
 References
     Johansson, Arb: efficient arbitrary-precision midpoint-radius interval arithmetic, IEEE
     Transactions on Computers 66 (2017) 1281-1292.
@@ -51,14 +51,21 @@ _UNKNOWN = (sp.Integral, sp.Limit, sp.Derivative, sp.Subs, sp.Piecewise)
 """Heads that a claim may hold and that have no ball; SymPy would take a quadrature, or the like."""
 
 
-def ball(number: sp.Expr, bits: int) -> arb:
-    """Return a ball that contains a number; not a finite one if it is not known to be real.
+@cache
+def ball(number: sp.Expr) -> arb | None:
+    """Return a ball that contains a number, without 0 if its precision suffices; None if there is
+    none, or the number is not known to be real.
 
-    >>> ball(sp.log(1 + sp.exp(-30)), 64) > 0, ball(sp.log(-1), 64).is_finite()
-    (True, False)
+    >>> ball(sp.tanh(sp.sqrt(1 + sp.exp(-300)) - 1)) > 0, ball(sp.log(-1))
+    (True, None)
     """
-    with ctx.workprec(bits):
-        return _ball(number)
+    found = arb("nan")
+    for bits in _BITS:
+        with ctx.workprec(bits):
+            found = _ball(number)
+        if found.is_finite() and not found.contains(0):
+            break
+    return found if found.is_finite() else None
 
 
 def _ball(number: sp.Expr) -> arb:
@@ -71,18 +78,12 @@ def _ball(number: sp.Expr) -> arb:
     return function(*map(_ball, number.args)) if function else arb("nan")
 
 
-@cache
 def sign_of(number: sp.Expr) -> int | None:
-    """Return 1 or -1 for a number whose sign a ball decides, None for others.
-
-    >>> sign_of(sp.tanh(sp.sqrt(1 + sp.exp(-300)) - 1)), sign_of(sp.S.Zero)
-    (1, None)
-    """
-    for bits in _BITS:
-        value = ball(number, bits)
-        if value.is_finite() and not value.contains(0):
-            return 1 if value > 0 else -1
-    return None
+    """Return 1 or -1 for a number whose sign a ball decides, None for others."""
+    found = ball(number)
+    if found is None or found.contains(0):
+        return None
+    return 1 if found > 0 else -1
 
 
 def misjudged(number: sp.Expr) -> bool:

@@ -12,7 +12,7 @@ import sympy as sp
 
 from ..claims import Claim, Equality, Inequality, Limit, Property, claim_of
 from ..kernel import Conclusion, Judgement, Rule, RuleError
-from ..parts import bound_in
+from ..parts import bound_in, nonzero
 from ..symbols import t
 from ..zero import is_zero
 from .proving import coefficients, lasts, require
@@ -66,7 +66,7 @@ class Solve(Theorem):
         if parts is None:
             raise RuleError(f"missing premise: {given.relation} is linear in {self.unknown}")
         slope, rest = parts
-        require(sp.Ne(slope, 0), *premises)
+        require(nonzero(slope), *premises)
         value = given.rhs
         if given.lhs != self.unknown or value.has(self.unknown):
             value = -rest / slope

@@ -12,6 +12,7 @@ from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..language import defined_by
 from ..note.model import START, WORDS, law_of
+from ..parts import nonzero
 from ..reals import holds
 from ..symbols import DATA, EXTREMES, symbol, t
 from ..zero import is_zero
@@ -104,10 +105,9 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     facts = lasting_facts(premises)
     goals = [*undefined(whole.xreplace(terms), *premises, always=True)]
     if implicit is None and sign is not None:
-        above = sign.func
         known = inserted(value, tuple(filter(lasts, premises)))
-        if not holds(above(known, 0), facts):
-            goals.append(above(value, 0, evaluate=False))
+        if not holds(sign.func(known, 0, evaluate=False), facts):
+            goals.append(sign.func(value, 0, evaluate=False))
     for goal in goals:
         if goal == sp.false or goal.has(HasValue, sp.Dummy):
             raise RuleError(f"missing premise: {in_words(goal)}")
@@ -169,7 +169,7 @@ def _solvable(relation: sp.Equality) -> sp.Tuple | None:
         return sides.xreplace(own)
     heads = [part.func for part in parts]
     solved = any(
-        slope.is_nonzero
+        holds(nonzero(slope))
         and not part.is_nonnegative
         and heads.count(part.func) == 1
         and part.args in _AT_EVERY_TIME

@@ -23,7 +23,7 @@ from ..averaging import collected, mean, turning, z
 from ..claims import Asymptotic, Drift, Equality, Oscillation, SlowEquation, Term
 from ..hypotheses import LOAD, SINE, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, RuleError, listed, plain
-from ..parts import needs
+from ..parts import needs, nonzero, positive
 from ..reals import LAW, holds
 from ..symbols import symbol, symbols, t
 from ..zero import is_zero
@@ -61,7 +61,7 @@ def _coefficients(law: sp.Expr, order: int, *premises: Judgement) -> tuple[sp.Ex
         raise RuleError(f"missing premise: {law} is smooth at infinity")
     steady, *others = (taylor(inverse, small, n) for n in range(order + 1))
     moves = fields(steady) or clocks(steady) or steady.atoms(sp.Dummy)
-    if moves or not holds(sp.Ne(steady, 0), facts_of(premises)):
+    if moves or not holds(nonzero(steady), facts_of(premises)):
         raise RuleError(f"missing premise: {steady} is the limit of {law}")
     return steady, *others
 
@@ -107,7 +107,7 @@ class OrderEquation(Theorem):
         given, n = equality(premises[0]), int(self.order)
         if n != self.order or n < 1:
             raise RuleError(f"missing premise: {self.order} is the number of an order")
-        for relation in (SINE.relation, OFFSET, SATURATION, sp.Gt(f_c, 0)):
+        for relation in (SINE.relation, OFFSET, SATURATION, positive(f_c)):
             require_hypothesis(relation, *premises)
         if given.lhs != p or fields(given.rhs) - {u_c, LOAD} or clocks(given.rhs):
             raise RuleError("missing premise: the pressure at given wear and load")

@@ -17,6 +17,7 @@ from ..claims import Equality, Inequality
 from ..hypotheses import LOAD, RIGID, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, RuleError
 from ..note.model import SUPPORT
+from ..parts import nonzero
 from ..symbols import symbols, t
 from .proving import coefficients, continuous, lasts, require, require_defined, smooth
 from .reading import (
@@ -165,7 +166,7 @@ class ChangeClock(Theorem):
         factor = sp.cancel(scaled.rhs / moving[0])
         if not constant(factor):
             raise RuleError(f"missing premise: {factor} is constant")
-        require(sp.Ne(factor, 0), *premises)
+        require(nonzero(factor), *premises)
         rate, scaled_rate = sp.Derivative(scaled.lhs, t), sp.Derivative(moving[0], tau)
         return Conclusion(Equality(rate, factor / T * scaled_rate), gives=(scaled_rate,))
 

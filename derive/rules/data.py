@@ -17,6 +17,7 @@ from ..kernel import Conclusion, Judgement, RuleError
 from ..language import defined_by, names
 from ..laws import r
 from ..note.model import ARCHARD, subject
+from ..parts import nonnegative, positive
 from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbols
 from ..zero import is_zero
@@ -58,7 +59,7 @@ def _require_roughness(said: frozenset[sp.Basic]) -> None:
     """Refuse laws by which a roughness may fall: for some data it would vanish, and none exist."""
     for law in said & _ROUGHENING:
         for wear in law.rhs.atoms(sp.Derivative):
-            rises = sp.Ge(law.rhs.diff(wear), 0, evaluate=False)
+            rises = nonnegative(law.rhs.diff(wear))
             if sp.Eq(wear.expr, 0) not in said and not holds(rises, said):
                 raise RuleError(f"missing premise: {rises}")
 
@@ -99,8 +100,8 @@ def _leaves_data_free(relation: sp.Basic) -> bool:
     its field.
     """
     if isinstance(relation, sp.LessThan):
-        positive = holds(sp.Gt(relation.rhs, 0)) and not [*undefined(relation.rhs)]
-        return relation.lhs == sp.Abs(LOAD) and positive
+        bounds = holds(positive(relation.rhs)) and not [*undefined(relation.rhs)]
+        return relation.lhs == sp.Abs(LOAD) and bounds
     if not _is_pressure_law(relation):
         return relation in _SETTINGS
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)

@@ -14,6 +14,7 @@ import sympy as sp
 from ..claims import Asymptotic
 from ..hypotheses import LOAD, PERIODIC, SINE
 from ..kernel import Conclusion, Judgement, RuleError
+from ..parts import nonnegative, nonzero, positive
 from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero
@@ -67,7 +68,7 @@ class FirstOrder(Theorem):
             raise RuleError(f"missing premise: {function} is differentiable at the limit")
         if not is_zero(function.subs(y, x.value) - steady.value):
             raise RuleError(f"missing premise: {steady.value} is the rate at the limit")
-        require(sp.Gt(steady.value, 0), *premises)
+        require(positive(steady.value), *premises)
         slope = sp.cancel(sp.diff(function, y).subs(y, x.value) / steady.value)
         return Conclusion(in_time(t * (steady.expr - steady.value) - slope * first, sp.S.Zero))
 
@@ -132,8 +133,8 @@ class LogarithmicGrowth(Theorem):
         if not is_zero(growth.expr - rate * sp.exp((u - LOAD) / s)) or not constant(s):
             raise RuleError("missing premise: the limit of exp((u - U_a)/s) du/dt")
         require_defined(s, *premises)
-        for positive in (a, s):
-            require(sp.Gt(positive, 0), *premises)
+        for factor in (a, s):
+            require(positive(factor), *premises)
         mean = sp.besseli(0, U / s)
         worn = s * sp.log(1 + a * N * T * mean / s)
         return Conclusion(Asymptotic(u.subs(t, N * T), worn, N, sp.oo), gives=(worn,))
@@ -165,10 +166,10 @@ class LeadingTerm(Theorem):
         rises = smooth(worn, small) and smooth(slope, small)
         if moving or not rises or not constant(sp.Tuple(pace, worn, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")
-        require(sp.Ne(pace, 0), *premises)
-        require(sp.Ge(s, 0), *premises)
+        require(nonzero(pace), *premises)
+        require(nonnegative(s), *premises)
         falls = (_at_zero(small**order * claimed, small, *premises) for order in (1, 2))
-        if not any(fall and holds(sp.Lt(fall, 0), facts_of(premises)) for fall in falls):
+        if not any(fall and holds(positive(-fall), facts_of(premises)) for fall in falls):
             raise RuleError(f"missing premise: {leading} grows without bound, like 1/s or ln(1/s)")
         quotient = _at_zero(slope / (sp.exp(worn) * claimed), small, *premises)
         if quotient is None or not is_zero(quotient - 1):
@@ -185,7 +186,7 @@ def _at_zero(expr: sp.Expr, small: sp.Dummy, *premises: Judgement) -> sp.Expr | 
     def exponential(argument: sp.Expr) -> sp.Expr:
         whole = sp.expand(sp.cancel(argument))
         pole = whole.coeff(small, -1)
-        size = next((a for a in (pole, -pole) if holds(sp.Gt(a, 0), facts)), sp.S.Zero)
+        size = next((a for a in (pole, -pole) if holds(positive(a), facts)), sp.S.Zero)
         if size == 0 or pole.has(small, *fading.values()):
             return sp.exp(whole)
         fades = fading.setdefault(size, sp.Dummy(positive=True))

@@ -21,6 +21,7 @@ from sympy.core.relational import Relational
 
 from ..hypotheses import BOUNDED_LOAD, CONTINUOUS, LOAD, PERIODIC
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..parts import nonnegative, positive
 from ..reals import LAW, holds
 from ..symbols import symbol, t
 from ..zero import is_zero
@@ -58,8 +59,8 @@ class Diverges(Theorem):
         steady = (speed, sp.expand(bound - speed * t), slope, sp.expand(self.expr - slope * u))
         if fields(u) | {t} != {u, t} or not all(map(constant, steady)):
             raise RuleError(f"missing premise: {self.expr} is linear in a growing field")
-        for positive in (speed, slope):
-            require(sp.Gt(positive, 0), *premises)
+        for factor in (speed, slope):
+            require(positive(factor), *premises)
         return Conclusion(in_time(self.expr, sp.oo))
 
 
@@ -130,7 +131,7 @@ def _require_positive(rate: sp.Expr, known: Iterable[sp.Basic], *premises: Judge
     of_data = [h.relation for p in premises for h in p.hypotheses if constant(h.relation)]
     given = frozenset(r.xreplace(plain) for r in (*known, *of_data))
     flat = rate.xreplace(plain)
-    goals = [sp.Gt(flat, 0), *continuity(flat, set(plain.values()))]
+    goals = [positive(flat), *continuity(flat, set(plain.values()))]
     if not constant(flat) or not all(holds(goal, given) for goal in goals):
         raise RuleError(f"missing premise: {rate} is positive and continuous")
 
@@ -236,7 +237,7 @@ class AtInfinity(Theorem):
         fall = -sp.cancel(inside / u)
         if not constant(fall):
             raise RuleError(f"missing premise: {self.small} -> 0 as {u} -> oo")
-        require(sp.Gt(fall, 0), *premises)
+        require(positive(fall), *premises)
         return -sp.log(z) / fall
 
 
@@ -282,12 +283,12 @@ class Intermittent(Theorem):
         shares = (
             sp.Integral(sp.Piecewise((1, c), (0, True)), (t, 0, T)) / T
             for c in meaning.rhs.atoms(sp.Le, sp.Ge)
-            if sp.cancel((c.gts - c.lts) / room).is_positive
+            if holds(positive(sp.cancel((c.gts - c.lts) / room)))
         )
         if meaning.rhs not in shares or not meaning.lhs.is_positive:
             raise RuleError("missing premise: the fraction of the period in contact")
         closed = [r for f in {LOAD, *fields(on)} - {u} for r in bounds(f, *premises)]
-        _require_positive(on, (*closed, sp.Ge(u, least.lesser)), *premises)
+        _require_positive(on, (*closed, nonnegative(u - least.lesser)), *premises)
         z = sp.Dummy("z", positive=True)
         plain = _plain(fields(on) - {u})
         order, smooth = expanded(on.xreplace(plain).subs(u, 1 / z), z)

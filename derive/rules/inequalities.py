@@ -14,6 +14,7 @@ import sympy as sp
 
 from ..claims import Equivalence, Inequality, claim_of
 from ..kernel import Conclusion, Judgement, RuleError
+from ..parts import nonnegative, positive
 from ..reals import holds, sign
 from ..zero import is_zero
 from .proving import continuity, facts_of, require, require_defined, smooth
@@ -45,7 +46,7 @@ class Monotone(Theorem):
     def prove(self, *premises: Judgement) -> Conclusion:
         bound, at = inequality(premises[0]), sp.Dummy(real=True)
         value = self.function(at)
-        inside = (sp.Ge(at, bound.lesser), sp.Le(at, bound.greater))
+        inside = (nonnegative(at - bound.lesser), nonnegative(bound.greater - at))
         facts = facts_of(premises) | set(inside)
         open_set = continuity(value, {at})
         direction = sign(sp.diff(value, at), facts) if smooth(value) else None
@@ -73,13 +74,13 @@ class Lipschitz(Theorem):
         value = self.function(y)
         slope = sp.diff(value, y)
         require_defined(value)
-        if not smooth(value) or not holds(sp.And(slope <= 0, slope >= -1)):
+        if not smooth(value) or not all(map(holds, (nonnegative(-slope), nonnegative(1 + slope)))):
             raise RuleError(f"missing premise: -1 <= {slope} <= 0")
-        for nonnegative in (self.step, self.factor):
-            require(sp.Ge(nonnegative, 0), *premises)
+        for length in (self.step, self.factor):
+            require(nonnegative(length), *premises)
         change = self.factor * (self.function(self.at) - self.function(self.at + self.step))
         most = self.factor * self.step
-        bounds = sp.Ge(change, 0, evaluate=False), sp.Le(change, most, evaluate=False)
+        bounds = nonnegative(change), sp.Le(change, most, evaluate=False)
         return Conclusion(claim_of(sp.And(*bounds, evaluate=False)))
 
 
@@ -101,7 +102,7 @@ class LogarithmicSlope(Theorem):
         value = self.function(y)
         require_defined(value)
         slope = sp.cancel((sp.diff(value, y) / value).rewrite(sp.exp))
-        goals = (value > 0, self.bound - slope >= 0, self.bound + slope >= 0)
+        goals = (positive(value), nonnegative(self.bound - slope), nonnegative(self.bound + slope))
         if not smooth(value) or not all(holds(goal) for goal in goals):
             raise RuleError(f"missing premise: |{slope}| <= {self.bound}")
         ratio = self.function(self.a) / self.function(self.b)
@@ -129,12 +130,12 @@ class Threshold(Theorem):
         function, level, point = demand.greater, demand.lesser, bound.lesser
         if bound.greater != self.variable or not (demand.strict and bound.strict):
             raise RuleError(f"missing premise: {self.claim} is strict on both sides")
-        positive = holds(sp.Gt(self.variable, 0), facts_of(premises))
-        any_ = sp.Dummy(positive=True) if positive else sp.Dummy(real=True)
+        above = holds(positive(self.variable), facts_of(premises))
+        any_ = sp.Dummy(positive=True) if above else sp.Dummy(real=True)
         value = exchanged(function, self.variable, any_)
         require_defined(value, *premises)
-        if positive:
-            require(sp.Gt(point, 0), *premises)
+        if above:
+            require(positive(point), *premises)
         slope = sp.diff(value, any_)
         if point.has(self.variable) or not smooth(value) or sign(slope, facts_of(premises)) != 1:
             raise RuleError(f"missing premise: {function} increases with {self.variable}")

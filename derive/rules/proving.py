@@ -29,7 +29,7 @@ from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
 from ..laws import r
 from ..note.model import WEARING
-from ..parts import bound, bound_in, certain, needs
+from ..parts import bound, bound_in, certain, needs, positive
 from ..reals import LAW, holds, sign
 from ..symbols import CLOCKS, symbols, t
 from .reading import clocks, constant, functions
@@ -218,7 +218,7 @@ def _needed(
         goals = [goal.xreplace({t: sp.Dummy()}) for goal in goals if not holds(goal, facts)]
     if isinstance(expr, sp.Integral):
         s, low, high = expr.xreplace(hidden).limits[0]
-        beyond = [sp.And(relation(s, low), relation(s, high)) for relation in (sp.Lt, sp.Gt)]
+        beyond = [sp.And(*(positive(side * (s - end)) for end in (low, high))) for side in (1, -1)]
         beyond += [sp.Not(fact) for fact in _between(s, low, high, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
         goals += integrable(parts[0], s)
@@ -338,4 +338,4 @@ def is_contact_law(law: sp.Expr) -> bool:
 
 
 def _strict(goal: sp.Basic) -> sp.Basic:
-    return sp.Gt(*goal.args) if isinstance(goal, sp.GreaterThan) else goal
+    return positive(goal.lhs - goal.rhs) if isinstance(goal, sp.GreaterThan) else goal

@@ -18,6 +18,7 @@ from ..claims import Continuous, Equality, FirstZero, Property
 from ..hypotheses import CONSTANT, LOAD
 from ..kernel import Conclusion, Judgement, Rule, RuleError, plain
 from ..note.model import WEARING
+from ..parts import nonnegative, nonzero, positive
 from ..reals import holds, sign
 from ..symbols import symbol, t
 from ..zero import is_zero
@@ -105,7 +106,7 @@ class Separate(Theorem):
         if not constant(whole) or not all(map(smooth, whole)):
             raise RuleError(f"missing premise: {self.claim.rhs} by smooth functions of {y} alone")
         slope = sp.diff(wear, moving)
-        if not any(holds(sp.Ne(e.xreplace({moving: y}), 0), facts) for e in (slope, rate)):
+        if not any(holds(nonzero(e.xreplace({moving: y})), facts) for e in (slope, rate)):
             raise RuleError(f"missing premise: {u} moves with {y}")
         if not is_zero(g * rate - pace * slope):
             raise RuleError(f"missing premise: {law.relation} separates into {self.claim}")
@@ -151,7 +152,7 @@ class Lambert(Theorem):
 
     def prove(self, *premises: Judgement) -> Conclusion:
         given, w = equality(premises[0]), self.argument
-        require(sp.Ge(w, 0), *premises)
+        require(nonnegative(w), *premises)
         if not is_zero(given.lhs - w * sp.exp(w)):
             raise RuleError(f"missing premise: {given.relation} is w e^w = x for w = {w}")
         return Conclusion(Equality(w, sp.LambertW(given.rhs)))
@@ -183,10 +184,10 @@ class FirstRoot(Theorem):
         y, facts = sp.Dummy(**x.assumptions0), facts_of(premises)
         whole = sp.Tuple(function, self.factor).xreplace({x: y})  # as written: nothing cancels
         for goal in undefined(whole, *premises):
-            if not holds(goal, facts | {sp.Gt(y, 0)}):
+            if not holds(goal, facts | {positive(y)}):
                 raise RuleError(f"missing premise: {in_words(goal)}")
-        require(sp.Gt(self.factor.subs(x, z), 0), *premises)
-        for goal in (sp.Gt(a_0, 0), sp.Ge(inside, 0), sp.Gt(inside, a_1 * sp.Abs(a_1))):
+        require(positive(self.factor.subs(x, z)), *premises)
+        for goal in (positive(a_0), nonnegative(inside), positive(inside - a_1 * sp.Abs(a_1))):
             require(goal, *premises)
         root = a_0 / (sp.sqrt(inside) - a_1)
         return Conclusion(Equality(self.zero, root), gives=(self.zero,))

@@ -124,10 +124,11 @@ numbers = st.recursive(
 
 @given(numbers)
 def test_balls_contain_the_values_of_sympy(number: sp.Expr) -> None:
-    found = ball(number, 200)
+    found = ball(number)
     with ctx.workprec(200):
         value = arb(str(sp.N(number, 60)))
-        assert not found.is_finite() or abs(found - value) < (1 + abs(value)) * arb(10) ** -50
+        nearest = found is None or found.overlaps(value + arb(0, 1) * abs(value) * arb(10) ** -50)
+        assert nearest or abs(found - value) < arb(10) ** -50
 
 
 def test_constants_are_known_by_their_balls() -> None:
@@ -177,5 +178,5 @@ def test_conclusions_have_the_right_sign() -> None:
         assert moved.relation.rhs == positive
     falls = Monotone(sp.Lambda(y, -LESS * y))(ge(x_inf, theta))
     assert falls.relation == sp.Le(-LESS * x_inf, -LESS * theta)
-    named = defined(kappa, -LESS)
-    assert any(h.shown for h in named.hypotheses)
+    with pytest.raises(RuleError, match="contradict"):
+        defined(kappa, -LESS)

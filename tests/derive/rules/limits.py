@@ -102,7 +102,7 @@ FAMILIES = (
         (u_c, h_0 + C * t), (q * u_c - h_0, C * t), (u_c * (1 + sp.Abs(GAP)), C * t, APART),
         (sigma_c0 + f_c * u_c, C * t, ROUGHENS),  # f_c = -0.05
     ), {
-        "bounded below by a constant": ("False", u_c, h_0),  # u_c = h_0
+        "bounded below by a constant": ("0 > 0", u_c, h_0),  # u_c = h_0
         "u_c - C t": ("linear in a growing field", u_c - C * t, C * t),  # u_c = C t
         "growth times 1 + |0/0|": ("Ne", u_c * (1 + sp.Abs(GAP)), C * t),
         "growth times w(tau)": ("linear in a growing field", w * u_c, C * t),  # w = e^-tau
