@@ -12,7 +12,7 @@ from ..hypotheses import LOAD, Hypothesis, Kind
 from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
 from ..language import defined_by
 from ..note.model import START, WORDS, law_of
-from ..parts import nonzero
+from ..parts import bound, nonzero
 from ..reals import holds
 from ..symbols import DATA, EXTREMES, symbol, t
 from ..zero import is_zero
@@ -52,13 +52,11 @@ class Assume(Rule):
 
     def conclude(self, *premises: Judgement) -> Conclusion:
         given, relation, kind = self.hypothesis, self.hypothesis.relation, self.hypothesis.kind
-        parts = sp.And.make_args(at_an_instant(relation))
-        instant = any(clocks(part) and all(map(constant, functions(part))) for part in parts)
         named = kind is Kind.DEFINITION
         if (
             relation in (sp.true, sp.false)
             or relation.has(landau_o)
-            or (not named and (instant or premises))
+            or (not named and (_of_an_instant(relation) or premises))
         ):
             raise RuleError(f"{given.text}: cannot be assumed")
         law = law_of(relation) if kind is Kind.MODEL else None
@@ -80,6 +78,13 @@ class Assume(Rule):
     def sentence(self, *labels: str, write: Callable[[sp.Basic], str] = plain) -> str:
         opening = "" if self.hypothesis.kind is Kind.DEFINITION else "Hypothesis: "
         return f"{opening}{self.hypothesis.text}."
+
+
+def _of_an_instant(relation: sp.Basic) -> bool:
+    """Return whether a part of a relation is of time alone, so that it does not hold at every
+    time."""
+    parts = sp.And.make_args(at_an_instant(relation))
+    return any(clocks(part) and all(map(constant, functions(part))) for part in parts)
 
 
 def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[Hypothesis, ...]:
@@ -109,7 +114,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
         if not holds(sign.func(known, 0, evaluate=False), facts):
             goals.append(sign.func(value, 0, evaluate=False))
     for goal in goals:
-        if goal == sp.false or goal.has(HasValue, sp.Dummy):
+        unsaid = goal == sp.false or goal.has(HasValue, sp.Dummy) or _of_an_instant(goal)
+        if unsaid or _new_fields(goal, relation):
             raise RuleError(f"missing premise: {in_words(goal)}")
     return tuple(map(Hypothesis, goals))
 
@@ -157,12 +163,12 @@ def _solvable(relation: sp.Equality) -> sp.Tuple | None:
     tends = isinstance(relation.lhs, sp.Limit)
     sides = sp.Tuple(relation.lhs.args[0] if tends else relation.lhs, relation.rhs)
     whole = sides[0] - sides[1]
-    fields = {f for f in functions(whole) if f.func.__name__ in defined_by(relation)}
+    fields = _new_fields(whole, relation)
     rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
     parts = (*rates, *fields - {d.expr for d in rates})
     own = {part: sp.Dummy(real=True) for part in parts}
     found = coefficients(whole, *parts)
-    if not parts or found is None:
+    if not parts or found is None or _is_bound(sides, relation):
         return None
     *slopes, rest = found
     if rest == 0 and not any(part.is_positive for part in parts):
@@ -176,6 +182,17 @@ def _solvable(relation: sp.Equality) -> sp.Tuple | None:
         for part, slope in zip(parts, slopes, strict=True)
     )
     return sides.xreplace(own) if solved and not tends and not rates else None
+
+
+def _new_fields(expr: sp.Basic, relation: sp.Equality) -> set[sp.Expr]:
+    """Return the fields in an expression to which a definition gives a meaning."""
+    return {f for f in functions(expr) if f.func.__name__ in defined_by(relation)}
+
+
+def _is_bound(sides: sp.Tuple, relation: sp.Equality) -> bool:
+    """Return whether a new field is in an integral or the like: one that need not exist."""
+    nodes = (node for node in sp.preorder_traversal(sides) if bound(node))
+    return any(_new_fields(e, relation) for e in nodes if not isinstance(e, sp.Derivative))
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

@@ -19,7 +19,7 @@ from derive.note.model import contact
 from derive.reals import LAW
 from derive.rules.algebra import Insert
 from derive.rules.assumption import assume
-from derive.rules.limits import forever
+from derive.rules.limits import forever, later
 from derive.symbols import initial, rate, symbol, symbols, t
 from tests.derive.judgements import end, equal, supposed
 
@@ -33,6 +33,7 @@ WOBBLE = sp.Function("wobble", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
 PHASED = sp.Function("v", real=True)(tau)
 CUT = sp.Piecewise((1, x <= 0), (0, True))
+SUMMED, LATER = (sp.Integral(e, (t, 0, T)) for e in (WIGGLE, WIGGLE.subs(t, t + T)))
 MEAN = sp.Integral(U_a, (t, 0, T))
 STEPPED = b_0 + sp.Piecewise((1, b_0 >= 0), (0, True))
 
@@ -319,6 +320,13 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.DEFINITION, equal(symbol("rho"), h_0), "rho is f_c"),  # of the slow time
     (Kind.DEFINITION, equal(symbol("p_s"), p_max / 2), "is a new name"),  # int 1/(p_s - p_max)
     (Kind.DEFINITION, equal(sp.Function("w", positive=True)(t), u_c), "is a new name"),
+    # a condition on the field that is meant: it is 0
+    (Kind.DEFINITION, equal(WIGGLE + 1 / later(WIGGLE), 1 / later(WIGGLE)), "missing premise: Ne"),
+    (Kind.DEFINITION, equal(f_c * later(WIGGLE) / WIGGLE + k * SWAYS, 0), "missing premise: Ne"),
+    (Kind.DEFINITION, equal(WIGGLE + SUMMED, SUMMED + U_a), "is a new name"),  # of any load
+    (Kind.DEFINITION, equal(WIGGLE + LATER, LATER + U_a), "is a new name"),
+    # that ends
+    (Kind.DEFINITION, equal(WIGGLE, sp.log(1 - t / T)), "missing premise: 1 - t/T > 0"),
     (Kind.DEFINITION, equal(t, 5), "t is T"),  # t = 4
     (Kind.DEFINITION, equal(N, u_c / h_0), "N is t/T"),  # u_c = -h_0 t/T
 )

@@ -322,9 +322,6 @@ FAMILIES = (
                 lt(q, 2)), h_0),
         "two data tied by a name that may be any": ("may vary", equal(IN_H_0, 0),
             tied(said(equal(theta * (f_c * L - h_0), 0), Kind.DEFINITION), ne(theta, 0)), h_0),
-        # with its negative it says f_c = 0 as time goes on
-        "a condition at every time": ("may vary", equal(SLOPE, h_0),
-            beside(defined(SOON, f_c + T / (t + T)))),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
