@@ -70,7 +70,6 @@ SCALED = defined(u_c, sigma_c0 * v)
 BOTH = L + b_0
 IN_H_0 = sp.Derivative(u_cum, h_0, evaluate=False)
 IN_FALLING_ORDER, HIGHER = ge(x_inf, theta), ge(-q, -2 * q, evaluate=False)
-SOON = sp.Symbol("z", positive=True)
 WHOLE = sp.Piecewise((1 / f_c, sp.Ge(f_c, L)), (0, True))
 
 
