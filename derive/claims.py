@@ -48,6 +48,14 @@ class FirstZero(sp.Expr):
         return rf"\min\left\{{{variable} > 0 : {expr} = 0\right\}}"
 
 
+def _by_points(slope: sp.Subs) -> tuple[sp.Basic, ...]:
+    """Return what makes two slopes equal, in place of SymPy, which compares how points print."""
+    return slope.expr.xreplace(slope.canonical_variables), slope.point
+
+
+sp.Subs._hashable_content = _by_points
+
+
 class Predicate(Boolean):
     """A statement that is no relation between numbers."""
 

@@ -16,6 +16,7 @@ Key results
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
 from functools import cache
 
@@ -32,6 +33,7 @@ from ..note.model import WEARING
 from ..parts import bound, bound_in, certain, needs, positive
 from ..reals import LAW, holds, sign
 from ..symbols import CLOCKS, symbols, t
+from ..zero import is_zero
 from .reading import clocks, constant, functions
 
 #: Heads of integrands that are continuous on each of finitely many pieces.
@@ -318,7 +320,9 @@ def coefficients(expr: sp.Expr, *parts: sp.Expr) -> tuple[sp.Expr, ...] | None:
     inside = (*slopes, *closed)
     if not smooth(flat, *names) or any(part.has(*names) for part in inside):
         return None
-    return *slopes, flat.xreplace(dict.fromkeys(names, sp.S.Zero))
+    rest = flat.xreplace(dict.fromkeys(names, sp.S.Zero))
+    whole = sp.Add(rest, *map(operator.mul, slopes, names))
+    return (*slopes, rest) if is_zero(flat - whole) else None  # it may have no value at 0
 
 
 def smooth_everywhere(expr: sp.Expr) -> bool:

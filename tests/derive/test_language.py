@@ -381,3 +381,17 @@ def test_a_definition_shows_what_its_value_supposes(
 @pytest.mark.parametrize(("kind", "relation"), CALLED, ids=str)
 def test_what_is_called_by_its_kind_can_be_assumed(kind: Kind, relation: sp.Basic) -> None:
     assert replay_fault(assume(supposed(relation, kind))) is None
+
+
+def test_slopes_of_the_law_are_one_only_at_one_point():
+    """SymPy compares how points print: e like a quantity E."""
+
+    def slope(variable: sp.Symbol, point: sp.Expr) -> sp.Subs:
+        return sp.Subs(sp.Derivative(LAW(variable), variable), variable, point)
+
+    named = sp.Symbol("E", real=True)
+    assert slope(x, sp.E) != slope(x, named)
+    assert slope(x, q) == slope(y, q)
+    assert hash(slope(x, q)) == hash(slope(y, q))
+    with pytest.raises(RuleError, match="no identity"):
+        Insert(equal(slope(x, sp.E), slope(x, named)))()

@@ -67,6 +67,7 @@ MEAN_LOAD = defined(U_mean, sp.Integral(U_a, (t, 0, T)) / T)
 SPEED = Arithmetic(equal(T / q * rate("u_c"), T / q * C))(RATE)
 IN_PIECES = eq(G, sp.Piecewise((q, h <= L), (0, True)))
 KINKED = x_inf - sp.Piecewise((1, x_inf >= 0), (0, True))
+BRANCHED = sp.LambertW(-h_0 - sp.exp(-1))
 OVER_ZERO = equal((h - u_a) / (u_c - h_0), 1)
 
 
@@ -141,6 +142,12 @@ FAMILIES = (
         # G = 1 - e^-t
         "solved under a derivative": ("linear in G", G, eq(T * rate("G") + G, theta)),
         "solved across a jump": ("linear in x_inf", x_inf, eq(KINKED, theta)),  # x_inf = -1/2
+        # theta = x_inf = 1, b_0 = 2: the product of the roots is 1
+        "solved where 0 has no value": ("linear in x_inf", x_inf,
+            eq(x_inf + sp.sqrt(x_inf) * sp.sqrt(theta / x_inf), b_0)),
+        # h_0 = 0: the factor is 0, though SymPy takes it for no real number
+        "a factor that is 0 at a branch point": ("Ne", theta,
+            eq((BRANCHED + 1) * theta, (BRANCHED + 1) * b_0, evaluate=False)),
     }),
     Family(lambda factor, claim=SIDES, *known: times(factor, claim, *known), (
         q, sp.Integral(1 / q, (q, L, 2 * L)),
