@@ -20,6 +20,7 @@ from .claims import Term
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, meant_by
 from .note.model import CLOSURE, WEARING, subject
+from .parts import bound_in
 from .reals import contradictory
 from .symbols import CLOCKS, QUANTITIES, symbol, t
 
@@ -83,7 +84,8 @@ def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:
 
 def _in_time(relation: sp.Basic) -> sp.Basic:
     """Write the clocks of a relation as functions of time."""
-    return relation if relation.has(sp.Derivative, Term) else relation.xreplace(_SCALED)
+    bound = relation.has(sp.Derivative, Term) or not bound_in(relation).isdisjoint(_SCALED)
+    return relation if bound else relation.xreplace(_SCALED)
 
 
 def _at_last(relations: Iterable[sp.Basic]) -> frozenset[sp.Basic]:

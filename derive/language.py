@@ -4,7 +4,7 @@ Overview
     The kernel trusts the heads that the model needs, exact real numbers, and names with their
     domain in the vocabulary.  Excluded are other heads, to which SymPy may assign a wrong sign, a
     second f_c with another domain, O(t), which is no number, and floats, which are not exact.
-    Each head has one form, with parts of its types: what is cut off is 0 beyond a bound, derivatives
+    Each head has one form, and parts of its types: what is cut off is 0 beyond a bound, derivatives
     are first ones, fields are taken now, one period later, at the start, after N cycles or at a
     phase.  What binds a variable binds a symbol.  Limits, integrals and the like are terms of sums.
 Key results

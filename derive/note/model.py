@@ -24,6 +24,7 @@ from __future__ import annotations
 from types import MappingProxyType
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ..laws import GENERAL, TANH, ContactLaw, r
 from ..symbols import initial, rate, symbols
@@ -105,6 +106,7 @@ def law_of(relation: sp.Basic) -> sp.Expr | None:
     """Return phi(r) where a relation is (4) for some law of r = h/sigma alone."""
     for part in relation.atoms(sp.Piecewise):
         share = part.args[0].expr.subs(h, r * sigma) / p_max
-        if share.free_symbols <= {r} and relation == contact(ContactLaw("", share, sp.S.Zero, "")):
+        others = (share.free_symbols | share.atoms(AppliedUndef)) - {r, GENERAL.phi}
+        if not others and relation == contact(ContactLaw("", share, sp.S.Zero, "")):
             return share
     return None

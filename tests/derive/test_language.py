@@ -274,6 +274,8 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1
+    (Kind.MODEL, touching(1 + initial("sigma_c")), "no equation of the model"),
+    (Kind.DEFINITION, equal(b_0, sp.Integral(sp.sqrt(PHASED), (tau, 0, 1))), "missing premise"),
     (Kind.CONDITION, equal(forever(u_c), C * t), "cannot be a limit"),
     (Kind.CONDITION, equal(forever(u_c), C * PHASED), "cannot be a limit"),
     (Kind.CONDITION, sp.Eq(f_c > 0, sp.true, evaluate=False), "another type"),
