@@ -89,8 +89,10 @@ def sign_of(number: sp.Expr) -> int | None:
 def misjudged(number: sp.Expr) -> bool:
     """Return whether SymPy keeps another sign, from before this module was imported."""
     found = sign_of(number) if number.is_number else None
+    if found is None:
+        return False
     kept = {1: number.is_positive, -1: number.is_negative}
-    return found is not None and (kept[found] is False or kept[-found] is True)
+    return kept[found] is False or kept[-found] is True
 
 
 def _has_ball(number: sp.Expr) -> bool:
