@@ -223,6 +223,9 @@ def test_the_usual_cycles_go_to_the_end_of_the_load(call, tmp_path):
         assert json.loads(call(command, str(scene), "--json")[1])["cycles"] == cycles
         status, _, messages = call(command, str(scene), "--cycles", "1,9000")
         assert (status, "is 2000; name cycles up to that" in messages) == (2, True)
+    path = tmp_path / "inside.csv"
+    assert call("run", str(scene), "--phases", "1", "-o", str(path))[0] == 0
+    assert path.read_text().splitlines()[-1].startswith("1999,0.0,")
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".csv"])
