@@ -23,7 +23,7 @@ from sympy.logic.boolalg import Boolean
 from sympy.printing.pretty.pretty import PrettyPrinter
 from sympy.printing.pretty.stringpict import prettyForm
 
-from . import signs  # noqa: F401 - signs of numbers by balls, before any is decided
+from . import repairs  # noqa: F401 - of SymPy, before it decides anything
 
 landau_o = sp.Function("o", real=True)
 """Landau's o: a term that is negligible against its argument, as in ``u = F + o(1)``."""
@@ -46,14 +46,6 @@ class FirstZero(sp.Expr):
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
         expr, variable = map(printer.doprint, self.args)
         return rf"\min\left\{{{variable} > 0 : {expr} = 0\right\}}"
-
-
-def _by_points(slope: sp.Subs) -> tuple[sp.Basic, ...]:
-    """Return what makes two slopes equal, in place of SymPy, which compares how points print."""
-    return slope.expr.xreplace(slope.canonical_variables), slope.point
-
-
-sp.Subs._hashable_content = _by_points
 
 
 class Predicate(Boolean):

@@ -20,6 +20,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from functools import cache
+from itertools import chain, repeat
 
 import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
@@ -39,9 +40,9 @@ from .claims import (
 )
 from .laws import GENERAL
 from .note.model import FIELDS
-from .parts import bound, guessed, is_slope_of_law, nonnegative, positive
+from .parts import bound, is_slope_of_law, nonnegative, positive
 from .reals import holds
-from .signs import misjudged
+from .repairs import misjudged
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
 
 _HASH = sp.Basic.__hash__
@@ -156,7 +157,7 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has two variables of one name"
     if fixed := _held_fixed(node):
         return f"{node} holds {fixed} fixed"
-    if (kind is sp.Integral and guessed(node)) or (node.args and misjudged(node)):
+    if node.args and misjudged(node):
         return f"{node} has a sign without proof"
     if kind is sp.Eq and isinstance(node.lhs, sp.Limit) and _clocks(node.rhs):
         return f"{node.rhs} cannot be a limit: it varies"
@@ -170,8 +171,7 @@ def _is_typed(node: sp.Basic) -> bool:
     """
     parts = node.args[:2] if isinstance(node, sp.Limit) else node.args
     first, others = _PARTS_OF.get(type(node), (sp.Expr, sp.Expr))
-    kinds = (first, *[others] * len(parts[1:]))
-    pairs = zip(parts, kinds, strict=True) if parts else ()
+    pairs = zip(parts, chain((first,), repeat(others)), strict=False)
     return all(isinstance(part, kind) and type(part) is not sp.Lambda for part, kind in pairs)
 
 

@@ -5,7 +5,6 @@ Key results
     certain       the parts that are defined wherever the whole is
     needs         the conditions for an expression to be defined, if its arguments are
     positive, nonnegative, nonzero    the sign of an expression, as a relation to be proved
-    guessed       whether SymPy may decide the sign of an integral without proof
 """
 
 from __future__ import annotations
@@ -66,8 +65,7 @@ def needs(expr: sp.Basic) -> tuple[sp.Basic, ...]:
         base, exponent = expr.args
         if exponent.is_Integer:
             return (nonzero(base),) if exponent.is_negative else ()
-        relation = sp.Ge if exponent.is_positive else sp.Gt
-        return (relation(base, 0, evaluate=False),)
+        return (nonnegative(base) if exponent.is_positive else positive(base),)
     if isinstance(expr, sp.log):
         return (positive(expr.args[0]),)
     if isinstance(expr, sp.LambertW):
@@ -100,15 +98,3 @@ def is_slope_of_law(expr: sp.Basic) -> bool:
     return isinstance(expr, sp.Derivative) and (
         expr.derivative_count == 1 and expr.expr == _LAW(expr.variables[0])
     )
-
-
-def guessed(integral: sp.Integral) -> bool:
-    """Return whether SymPy may decide the sign of an integral without proof.
-
-    It evaluates one without free symbols by quadrature, and takes one for no zero if its integrand
-    is none, though that may be of both signs.
-    """
-    body = integral.function
-    signed = body.is_positive or body.is_negative
-    closed = integral.is_number and not integral.atoms(AppliedUndef)
-    return bool(closed or (integral.is_zero is False and not signed))

@@ -29,7 +29,7 @@ from sympy.core.relational import Relational
 from .claims import HasValue
 from .laws import GENERAL
 from .parts import certain, is_slope_of_law, needs, positive
-from .signs import ball
+from .repairs import ball
 
 LAW = GENERAL.phi.func
 """The unspecified contact law: positive, continuously differentiable, of negative slope."""

@@ -237,8 +237,9 @@ def read(options: Options) -> Faults:
     options.scene = scenes if isinstance(names, list) else next(iter(scenes), None)
     if "usual_cycles" in options and options.cycles is None:
         most = min((most_cycles(scene.load) for scene in scenes), default=0)
-        inside = getattr(options, "phases", None) is not None  # of the cycle that begins then
-        options.cycles = tuple(dict.fromkeys(min(n, most - inside) for n in options.usual_cycles))
+        if getattr(options, "phases", None) is not None:
+            most -= 1  # of the cycle that begins then
+        options.cycles = tuple(dict.fromkeys(min(n, most) for n in options.usual_cycles))
     if "readings" in options and options.data is not None:
         options.readings = _readings(options.data, scenes, faults)
     return faults

@@ -200,10 +200,10 @@ FAMILIES = (
     }),
     Family(lambda apart: ByParts(-1 / (t - T))(
         eq(G, sp.Integral((t - T) ** -2, (t, 0, 2 * T))), apart), (), {
-        "over a pole where another wear has no rate": ("without proof",
+        "over a pole where another wear has no rate": ("no integral over time",
             ne(rate("u_a") * (t - T), 0)),
         # u_c = C (t - T)
-        "over a pole at an instant without a rate": ("without proof", Arithmetic(sp.Ne(t - T, 0))(
+        "over a pole at an instant without a rate": ("no integral over time", Arithmetic(sp.Ne(t - T, 0))(
             eq(u_c, C * (t - T)), differentiate(SQUARE), TURNS)),
     }),
     Family(lambda primitive, body, s=p_s, low=1,

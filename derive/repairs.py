@@ -1,4 +1,4 @@
-"""The signs of numbers, by balls: in place of SymPy's, which are not always right.
+"""Repairs of SymPy: the signs of numbers, which balls decide, and the equality of slopes.
 
 Overview
     SymPy decides relations between numbers, and with them absolute values, pieces and roots, by
@@ -6,7 +6,8 @@ Overview
     ``log(1 + exp(-30))`` and ``tanh(sqrt(1 + exp(-300)) - 1)`` are 0 to it, and
     ``(1 + 1/(1 + sqrt(2)))**2 - 2``, which is 0, is not.  False claims would follow.  Importing
     this module replaces these decisions by that of a ball.  A sign that no ball decides, such as
-    that of a zero in disguise, is left open.
+    that of a zero in disguise, is left open.  Slopes ``phi'(a)`` and ``phi'(b)`` are equal to SymPy
+    if a and b print alike; here a and b must be equal.
 Key results
     ball(number)        a ball that contains a number, or None
     sign_of(number)     1, -1 or None
@@ -95,7 +96,7 @@ def misjudged(number: sp.Expr) -> bool:
     return kept[found] is False or kept[-found] is True
 
 
-def _has_ball(number: sp.Expr) -> bool:
+def _is_of_claims(number: sp.Expr) -> bool:
     """Return whether an expression is a number that a claim may hold, no atom; SymPy decides the
     signs of others."""
     if not number.args or not number.is_number:
@@ -107,7 +108,7 @@ def _has_ball(number: sp.Expr) -> bool:
 
 def _asked(fact: str, expr: sp.Expr) -> bool | None:
     """Decide an assumption about an expression, in SymPy's place."""
-    if not _has_ball(expr):
+    if not _is_of_claims(expr):
         return _of_sympy(fact, expr)
     if fact in _FACTS:
         found = sign_of(expr)
@@ -120,7 +121,7 @@ def _asked(fact: str, expr: sp.Expr) -> bool | None:
 
 def _is_of_sign(number: sp.Expr, positive: bool) -> bool | None:
     """Decide ``is_positive`` or ``is_negative`` by a numerical value."""
-    if not _has_ball(number):
+    if not _is_of_claims(number):
         return _by_value(number, positive)
     found = sign_of(number)
     return None if found is None else (found > 0) == positive
@@ -128,7 +129,7 @@ def _is_of_sign(number: sp.Expr, positive: bool) -> bool | None:
 
 def _difference(a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
     """Return a number with the sign of a - b, which decides relations; None to leave them open."""
-    if not (a.is_number and b.is_number) or not _has_ball(a - b):
+    if not (a.is_number and b.is_number) or not _is_of_claims(a - b):
         return _difference_of_sympy(a, b)
     found = sign_of(a - b)
     return found and sp.Integer(found)
@@ -136,8 +137,13 @@ def _difference(a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
 
 def _power(self: sp.Pow, exponent: sp.Expr) -> sp.Expr | None:
     """Return a power of a power as one; None to leave it, as the sign of the base is open."""
-    is_open = _has_ball(self.base) and sign_of(self.base) is None
+    is_open = _is_of_claims(self.base) and sign_of(self.base) is None
     return None if is_open and not exponent.is_Integer else _power_of_sympy(self, exponent)
+
+
+def _by_points(slope: sp.Subs) -> tuple[sp.Basic, ...]:
+    """Return what makes two slopes equal."""
+    return slope.expr.xreplace(slope.canonical_variables), slope.point
 
 
 assumptions: Any = import_module("sympy.core.assumptions")  # not the function in ``sympy.core``
@@ -149,4 +155,5 @@ assumptions._ask = _asked
 sp.Expr._eval_is_extended_positive_negative = _is_of_sign
 relational._n2 = _difference
 sp.Pow._eval_power = _power
+sp.Subs._hashable_content = _by_points
 clear_cache()  # of decisions made before
