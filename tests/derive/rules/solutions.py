@@ -203,7 +203,7 @@ FAMILIES = (
         "over a pole where another wear has no rate": ("no integral over time",
             ne(rate("u_a") * (t - T), 0)),
         # u_c = C (t - T)
-        "over a pole at an instant without a rate": ("no integral over time", Arithmetic(sp.Ne(t - T, 0))(
+        "over a pole at an instant without a rate": ("no integral", Arithmetic(sp.Ne(t - T, 0))(
             eq(u_c, C * (t - T)), differentiate(SQUARE), TURNS)),
     }),
     Family(lambda primitive, body, s=p_s, low=1,
