@@ -166,6 +166,8 @@ class Judgement:
 
     def named(self, name: str, remark: str = "") -> Judgement:
         """Return the same judgement under another name."""
+        if type(self) is not Judgement or not self.is_made:
+            raise TypeError("only a rule makes a judgement")
         return Judgement(
             self.hypotheses, self.claim, self.rule, self.parents, name, remark or self.remark,
             _TOKEN,

@@ -94,14 +94,14 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     restricts no other quantity, and need not be shown.  RuleError if no relation expresses the
     condition, or if the name is not new.
     """
-    name, value = relation.args
+    name, value, slope = *relation.args, sp.S.One
     if not name.is_Symbol:
-        name, value = _solved(relation) or relation.args
+        name, value, slope = _solved(relation) or (name, value, slope)
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
     if implicit is None:
         _require_name(name, value, premises)
     new = {name: sp.Dummy(**name.assumptions0)}
-    whole = implicit or sp.Tuple(value, *(side.xreplace(new) for side in relation.args))
+    whole = implicit or sp.Tuple(value, 1 / slope, *(side.xreplace(new) for side in relation.args))
     terms = {term: sp.Dummy() for term in whole.atoms(Term)}
     for term in terms:
         require_expansion(term, *premises)
@@ -139,16 +139,16 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
         raise RuleError(f"missing premise: {now} is constant")
 
 
-def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr] | None:
-    """Return the only new name in an equation between constants that is linear in it, and the
-    value that solves it; None for any other equation."""
+def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr, sp.Expr] | None:
+    """Return the only new name in an equation between constants that is linear in it, the value
+    that solves it, and the factor of the name; None for any other equation."""
     whole = relation.lhs - relation.rhs
     new = {s for s in whole.free_symbols if s.name not in _GIVEN and s not in _MEANT}
     if len(new) != 1 or not constant(whole) or functions(whole):
         return None
     (name,) = new
     parts = coefficients(whole, name)
-    return (name, -parts[1] / parts[0]) if parts else None
+    return (name, -parts[1] / parts[0], parts[0]) if parts else None
 
 
 def _solvable(relation: sp.Equality) -> sp.Tuple | None:

@@ -9,59 +9,66 @@ from __future__ import annotations
 from collections.abc import Collection, Set
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ..claims import Equality
-from ..hypotheses import LOAD, Kind
+from ..hypotheses import BOUNDED_LOAD, RIGID, SMOOTH_PIN, UNWORN_PIN, Kind
 from ..kernel import Conclusion, Judgement, RuleError
 from ..language import defined_by, names
 from ..laws import r
-from ..note.model import ARCHARD, subject
-from ..parts import nonnegative, positive
+from ..note.model import ARCHARD, CLOSURE, ROUGHNESS, START, SUPPORT
+from ..parts import nonnegative
 from ..reals import holds
 from ..symbols import CLOCKS, DATA, symbols
 from ..zero import is_zero
 from .algebra import inserted
-from .proving import continuity, is_contact_law, open_set, require_defined, smooth, undefined
+from .proving import continuity, is_contact_law, open_set, require_defined, smooth
 from .reading import equality, functions
 from .theorem import Theorem
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
-_SETTINGS = [sp.Eq(field, 0) for field in symbols("u_a sigma_a U_c")]
-_ROUGHENING = frozenset(ARCHARD[1::2])
-"""The laws by which the two roughnesses change with wear."""
+_ONE_SOLID = frozenset(
+    (
+        *(*CLOSURE.values(), ROUGHNESS, *ARCHARD[2:], SUPPORT, *map(START.__getitem__, (1, 4))),
+        *(setting.relation for setting in (UNWORN_PIN, SMOOTH_PIN, RIGID, BOUNDED_LOAD)),
+    )
+)
+"""The model of a bearing that alone wears.  With a contact law at every closure it has fields for
+all data: under no load the gap never falls below its first value, so that the rate is bounded,
+and on springs one gap is in equilibrium at each instant, since the pressure falls with it."""
+_ROUGHENING = ARCHARD[3]
 
 
 def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> None:
-    """Refuse an expression unless it has data alone, of which one may vary, the others fixed."""
+    """Refuse an expression unless it has data alone, of which one may vary, the others fixed.
+
+    Fields must exist for all values, so that all that hypotheses may say of given fields is the
+    model of one wearing solid.
+    """
     if functions(expr) or any(s.name not in DATA for s in expr.free_symbols):
         raise RuleError(f"missing premise: {expr} is a function of data alone")
     hypotheses = [hypothesis for premise in premises for hypothesis in premise.hypotheses]
     definitions = [h.relation for h in hypotheses if h.kind is Kind.DEFINITION]
-    modelled = {subject(h.relation) for h in hypotheses if h.kind is Kind.MODEL}
-    if len({r for r in (h.relation for h in hypotheses) if _is_pressure_law(r)}) > 1:
-        raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
     for hypothesis in hypotheses:
-        relation, kind = hypothesis.relation, hypothesis.kind
-        if kind in (Kind.DEFINITION, Kind.INITIAL, Kind.MODEL) and relation.atoms(AppliedUndef):
-            continue
+        relation, named = hypothesis.relation, hypothesis.kind is Kind.DEFINITION
         if functions(relation):
-            fixed = not _leaves_data_free(relation) or subject(relation) in modelled
+            fixed = not (named or relation in _ONE_SOLID or _is_law_at_every_closure(relation))
         else:
             about = parameter.name in _data_of(relation, definitions)
-            fixed = about and kind is not Kind.DEFINITION and not _is_open(relation, definitions)
+            fixed = about and not named and not _is_open(relation, definitions)
         if fixed:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
-    _require_roughness(frozenset(h.relation for h in hypotheses))
+    said = frozenset(h.relation for h in hypotheses)
+    if len([*filter(_is_law_at_every_closure, said)]) > 1:
+        raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
+    _require_roughness(said)
 
 
 def _require_roughness(said: frozenset[sp.Basic]) -> None:
-    """Refuse laws by which a roughness may fall: for some data it would vanish, and none exist."""
-    for law in said & _ROUGHENING:
-        for wear in law.rhs.atoms(sp.Derivative):
-            rises = nonnegative(law.rhs.diff(wear))
-            if sp.Eq(wear.expr, 0) not in said and not holds(rises, said):
-                raise RuleError(f"missing premise: {rises}")
+    """Refuse a roughness that may fall: for some data it would vanish, and no fields exist."""
+    for wear in _ROUGHENING.rhs.atoms(sp.Derivative) if _ROUGHENING in said else ():
+        rises = nonnegative(_ROUGHENING.rhs.diff(wear))
+        if sp.Eq(wear.expr, 0) not in said and not holds(rises, said):
+            raise RuleError(f"missing premise: {rises}")
 
 
 def _data_of(relation: sp.Basic, definitions: Collection[sp.Basic]) -> Set[str]:
@@ -93,24 +100,13 @@ def _is_open(relation: sp.Basic, definitions: Collection[sp.Basic]) -> bool:
     return of_data and open_set(whole) and all(holds(told(g), frozenset([whole])) for g in parts)
 
 
-def _leaves_data_free(relation: sp.Basic) -> bool:
-    """Return whether fields that satisfy a relation exist for all data.
-
-    So it is for a contact law, a bound of the load, and a setting, if it is all that determines
-    its field.
-    """
-    if isinstance(relation, sp.LessThan):
-        bounds = holds(positive(relation.rhs)) and not [*undefined(relation.rhs)]
-        return relation.lhs == sp.Abs(LOAD) and bounds
-    if not _is_pressure_law(relation):
-        return relation in _SETTINGS
+def _is_law_at_every_closure(relation: sp.Basic) -> bool:
+    """Return whether a relation is a contact law without a cutoff."""
+    if not isinstance(relation, sp.Equality) or relation.lhs != PRESSURE:
+        return False
     law = (relation.rhs / PRESSURE_MAX).subs(h, r * sigma)
     same = not relation.has(r) and relation.rhs == PRESSURE_MAX * law.subs(r, h / sigma)
     return same and law.free_symbols <= {r} and not functions(law) and is_contact_law(law)
-
-
-def _is_pressure_law(relation: sp.Basic) -> bool:
-    return isinstance(relation, sp.Equality) and relation.lhs == PRESSURE
 
 
 class DataDerivative(Theorem):

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Iterator
 from copy import copy
+from types import SimpleNamespace
 
 import pytest
 import sympy as sp
@@ -36,6 +37,9 @@ def test_nothing_is_made_by_hand() -> None:
         dataclasses.replace(made, claim=FALSE)
     with pytest.raises(dataclasses.FrozenInstanceError):
         made.claim = FALSE  # type: ignore[misc]
+    alike = SimpleNamespace(**vars(made) | {"claim": FALSE, "is_made": True})
+    with pytest.raises(TypeError, match="only a rule"):
+        Judgement.named(alike, "a look-alike")  # type: ignore[arg-type]
 
 
 def test_a_rule_of_ones_own_is_no_rule() -> None:

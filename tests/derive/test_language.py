@@ -354,22 +354,26 @@ def test_a_hypothesis_is_of_the_kind_that_it_is_called(
 
 
 @pytest.mark.parametrize(
-    ("relation", "condition"),
+    ("relation", "conditions"),
     [
-        (equal(f_c * b_0, 3), sp.Ne(f_c, 0)),
-        (equal(b_0 + sp.log(f_c), sp.log(f_c) + h_0), sp.Gt(f_c, 0)),
-        (equal(b_0 * sp.log(f_c), 0), sp.Gt(f_c, 0)),
-        (equal(WIGGLE + sp.log(f_c), sp.log(f_c)), sp.Gt(f_c, 0)),
-        (equal(2 * C, f_c * h_0), sp.Gt(f_c * h_0 / 2, 0, evaluate=False)),
-        (equal(q - symbol("U_max") / p_max, 0), sp.Gt(symbol("U_max") / p_max, 0, evaluate=False)),
+        (equal(f_c * b_0, 3), [sp.Ne(f_c, 0)]),
+        (equal(b_0 + sp.log(f_c), sp.log(f_c) + h_0), [sp.Gt(f_c, 0)]),
+        (equal(b_0 * (f_c - h_0), 0), [sp.Ne(f_c - h_0, 0)]),
+        (equal(b_0 * sp.log(f_c), 0), [sp.Gt(f_c, 0), sp.Ne(sp.log(f_c), 0)]),
+        (equal(WIGGLE + sp.log(f_c), sp.log(f_c)), [sp.Gt(f_c, 0)]),
+        (equal(2 * C, f_c * h_0), [sp.Gt(f_c * h_0 / 2, 0, evaluate=False)]),
+        (
+            equal(q - symbol("U_max") / p_max, 0),
+            [sp.Gt(symbol("U_max") / p_max, 0, evaluate=False)],
+        ),
     ],
     ids=str,
 )
 def test_a_definition_shows_what_its_value_supposes(
-    relation: sp.Equality, condition: sp.Basic
+    relation: sp.Equality, conditions: list[sp.Basic]
 ) -> None:
     shown = assume(supposed(relation, Kind.DEFINITION)).conditions
-    assert [hypothesis.relation for hypothesis in shown] == [condition]
+    assert [hypothesis.relation for hypothesis in shown] == conditions
 
 
 @pytest.mark.parametrize(("kind", "relation"), CALLED, ids=str)

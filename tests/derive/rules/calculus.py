@@ -6,8 +6,8 @@ import sympy as sp
 
 from derive.hypotheses import CONTINUOUS, DIFFERENTIABLE, Kind
 from derive.kernel import infer
-from derive.laws import GENERAL, r
-from derive.note.model import ARCHARD, SLIP
+from derive.laws import GENERAL, TANH, r
+from derive.note.model import ARCHARD, SLIP, SUPPORT, contact
 from derive.note.model import START as STARTS
 from derive.rules.algebra import Insert, Solve, substitute
 from derive.rules.assumption import assume, defined
@@ -319,8 +319,6 @@ FAMILIES = (
         "two data tied by a bound of a name": ("may vary", equal(IN_H_0, 0),
             tied(defined(q, 2 - sp.Piecewise((1, sp.Le((h_0 - f_c * L) ** 2, 0)), (0, True))),
                 lt(q, 2)), h_0),
-        "two data tied by a name that may be any": ("may vary", equal(IN_H_0, 0),
-            tied(said(equal(theta * (f_c * L - h_0), 0), Kind.DEFINITION), ne(theta, 0)), h_0),
         "a load below what is negative": ("may vary", equal(IN_H_0, 0),
             tied(le(sp.Abs(U_a), -L * (f_c - h_0 / L) ** 2)), h_0),
         # the slope is f_c
@@ -337,9 +335,6 @@ FAMILIES = (
         "a name that has a value": ("may vary", equal(SLOPE, 0), eq(u_cum, L)),
         "a name that has a value beside a new one": ("may vary", equal(SLOPE, 0),
             valued(u_cum, equal(u_cum + b_0, u_cum + h_0))),
-        # theta = 1 + T (h_0 - f_c L)
-        "a name that is zero or has any value": ("may vary", equal(sp.Derivative(theta, T), 0),
-            valued(theta, equal(theta * (f_c * L - h_0), 0)), T),
         "a name that equals one without a definition": ("may vary", equal(SLOPE, 0),
             beside_wear(eq(theta, f_c))),
         # with theta = L f_c it is the slope at one value of f_c
@@ -350,6 +345,18 @@ FAMILIES = (
         # under a law that exceeds p_max it is for f_c >= 0 that there are fields: |f_c| is f_c
         "a roughness that may vanish": (">= 0", equal(SLOPE, h_0),
             beside(said(ARCHARD[3], Kind.MODEL))),
+        # with each of the next four, fields may exist at one U alone, or from some U on
+        "a load within less than U": ("may vary", equal(SLOPE, h_0),
+            beside(le(sp.Abs(U_a), U / (1 + (f_c - h_0 / L) ** 2)))),
+        "a contact that ends on springs": ("may vary", equal(SLOPE, h_0),
+            beside(said(contact(TANH), Kind.MODEL), said(SUPPORT, Kind.MODEL))),
+        "a contact that ends": ("may vary", equal(SLOPE, h_0),
+            beside(said(contact(TANH), Kind.MODEL))),
+        "a first gap": ("may vary", equal(SLOPE, h_0),
+            beside(said(STARTS[0], Kind.INITIAL))),
+        # the wear may be infinite in finite time, if the pin wears faster than the bearing
+        "wear of the pin": ("may vary", equal(SLOPE, h_0),
+            beside(said(ARCHARD[0], Kind.MODEL))),
         "two contact laws": ("two contact laws", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.exp(-h / sigma)), eq(p, p_max / (1 + sp.exp(h / sigma))))),
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
