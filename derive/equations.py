@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from .claims import Term, claim_of, mapped
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain, step_key
+from .kernel import Judgement, chain, step_key
 from .language import defined_by, names
 from .laws import written_out
 from .rules.assumption import Assume
@@ -191,9 +191,10 @@ class Equation:
     @property
     def _signs(self) -> tuple[Hypothesis, ...]:
         """Return the signs of names that neither the vocabulary nor a definition has."""
-        known = QUANTITIES.keys() | {n for h in self._naming for n in defined_by(h.relation)}
-        others = sorted((s for s in self.relation.free_symbols if s.name not in known), key=str)
-        return tuple(Hypothesis(sign) for sign in map(domain, others) if sign is not None)
+        named = {h.relation.args[0] for h in self._naming}
+        signs = dict.fromkeys(sign for statement in self.statements for sign in statement.domains)
+        own = (s for s in signs if s.args[0] not in named and _names([s]) - QUANTITIES.keys())
+        return tuple(map(Hypothesis, own))
 
     @cached_property
     def definitions(self) -> tuple[Hypothesis, ...]:

@@ -65,8 +65,9 @@ class Hypothesis:
     @property
     def shown(self) -> bool:
         """Return whether it is shown beside an equation: the note's model and definitions are
-        not, another contact law is."""
-        return self.kind is Kind.CONDITION or (self.kind is Kind.MODEL and not self.words)
+        not, another contact law or sign of (1) is."""
+        other = self.relation in _SETTINGS or not self.words
+        return self.kind is Kind.CONDITION or (self.kind is Kind.MODEL and other)
 
     @property
     def is_setting(self) -> bool:
@@ -161,6 +162,7 @@ _SETTINGS = MappingProxyType(
         SMOOTH_PIN.relation: "smooth pin",
         UNWORN_PIN.relation: "unworn pin",
         RIGID.relation: "rigid support",
+        model.CLOSURE[True]: "wear of the pin opens the gap",
         **{model.at_every_closure(law): "no loss of contact" for law in (TANH, GENERAL)},
         **{h.relation: "no cross coupling of roughness" for h in UNCOUPLED},
         PERIODIC.relation: "load of period T",

@@ -31,14 +31,16 @@ from typing import ClassVar, dataclass_transform
 from weakref import WeakKeyDictionary
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.core.parameters import global_parameters
 from sympy.core.relational import Relational
 
 from .claims import Claim
 from .consistency import inconsistency
 from .hypotheses import Hypothesis, Kind
-from .language import fault, is_changed, names, typeset_name
-from .symbols import QUANTITIES
+from .language import fault, names, typeset_name
+from .laws import GENERAL
+from .parts import bound_in
 from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
@@ -133,7 +135,7 @@ class Judgement:
     def __post_init__(self, token: object) -> None:
         if token is not _TOKEN:
             raise TypeError("only a rule makes a judgement")
-        _MADE[self] = self._held
+        _MADE[self] = self._held, _content(self._held[:2])
 
     def __init_subclass__(cls) -> None:
         raise TypeError("only a rule makes a judgement")
@@ -145,8 +147,12 @@ class Judgement:
     @property
     def is_made(self) -> bool:
         """Return whether a rule made it, and it still holds what it held then."""
-        known = _MADE.get(self)
-        return known is not None and all(map(operator.is_, known, self._held))
+        held, content = _MADE.get(self, ((), ()))
+        return (
+            len(held) == len(self._held)
+            and all(map(operator.is_, held, self._held))
+            and content == _content(held[:2])
+        )
 
     @property
     def relation(self) -> sp.Basic:
@@ -160,7 +166,7 @@ class Judgement:
 
     @property
     def domains(self) -> tuple[sp.Basic, ...]:
-        """Return the domains, by the vocabulary, of the symbols that occur."""
+        """Return the domains of the names that occur, those of authors included."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
         return tuple(sorted({known for r in relations for known in _domains(r)}, key=str))
 
@@ -174,20 +180,20 @@ class Judgement:
         )  # fmt: skip
 
 
-_MADE: WeakKeyDictionary[Judgement, tuple[object, ...]] = WeakKeyDictionary()
-"""What each judgement held when a rule made it."""
+_MADE: WeakKeyDictionary[Judgement, tuple[tuple[object, ...], object]] = WeakKeyDictionary()
+"""What each judgement held when a rule made it, and the content of its hypotheses and claim."""
 
 
 @cache
 def _domains(relation: sp.Basic) -> tuple[sp.Basic, ...]:
-    """Return the domains of the quantities in a relation."""
-    atoms = relation.atoms(sp.Symbol, sp.Function)
-    domains = (domain(a) for a in atoms if not QUANTITIES.keys().isdisjoint((str(a), str(a.func))))
-    return tuple(known for known in domains if known is not None)
+    """Return the domains of the free names in a relation, but the contact law."""
+    fields = (f for f in relation.atoms(AppliedUndef) if f.func != GENERAL.phi.func)
+    known = map(domain, (*relation.free_symbols - bound_in(relation), *fields))
+    return tuple(each for each in known if each is not None)
 
 
 def domain(atom: sp.Expr) -> Relational | None:
-    """Return the domain of a quantity, None for all real numbers."""
+    """Return the domain of a name, None for all real numbers."""
     for holds, relation in ((atom.is_positive, sp.Gt), (atom.is_nonnegative, sp.Ge)):
         if holds:
             return relation(atom, 0, evaluate=False)
@@ -216,10 +222,7 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
     if set(vars(rule)) != {field.name for field in fields(rule)}:  # type: ignore[arg-type]
         raise RuleError(f"{kind.__name__} has fields that are not its own")
     if not all(type(premise) is Judgement and premise.is_made for premise in premises):
-        raise RuleError("missing premise: a judgement that a rule made")
-    supposed = {h.relation for premise in premises for h in premise.hypotheses}
-    if any(map(is_changed, supposed.union(premise.relation for premise in premises))):
-        raise RuleError("missing premise: a judgement that was not changed")
+        raise RuleError("missing premise: a judgement that a rule made, and nobody changed")
     if len(premises) < len(rule.premise_names):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.premise_names)}")
     _require_language(*vars(rule).values())
@@ -273,6 +276,8 @@ def _require_language(*parts: object) -> None:
     if found := next(filter(None, map(fault, expressions)), None):
         raise RuleError(f"no claim: {found}")
     bearers = frozenset().union(*map(names, expressions))
+    if any(expr.has(sp.E) for expr in expressions):
+        bearers |= {("E", sp.E)}  # it is printed like a name
     if len({typeset_name(name) for name, _ in bearers}) < len(bearers):
         raise RuleError("no claim: two quantities have one name")
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from operator import methodcaller
@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from ..kernel import Judgement
 from ..rules.data import DataDerivative
-from ..symbols import CLOCKS, QUANTITIES, t
+from ..symbols import CLOCKS, t
 from . import printer
 
 
@@ -79,7 +79,7 @@ def statement(judgement: Judgement) -> Statement:
     ]
     premises += [
         _premise(f"domain_{printer.quantity(atom)}", relation)
-        for relation in (*judgement.domains, *_signs(relations[0]))
+        for relation in judgement.domains
         if (atom := relation.args[0]).args == (t,) or atom in free - {t}
     ]
     rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
@@ -109,14 +109,6 @@ def _words(text: str) -> str:
     """Return a hypothesis in words as part of a name."""
     words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
     return words.removeprefix("the_")[:40].rstrip("_")
-
-
-def _signs(relation: sp.Basic) -> Iterator[sp.Basic]:
-    """Yield the signs of symbols outside the vocabulary, which a rule or an author introduced."""
-    for symbol in sorted(relation.free_symbols, key=str):
-        outside = symbol.name not in QUANTITIES and not isinstance(symbol, sp.Dummy)
-        if outside and symbol.is_nonnegative:
-            yield (sp.Gt if symbol.is_positive else sp.Ge)(symbol, 0, evaluate=False)
 
 
 def _distinct(premises: Iterable[Premise]) -> tuple[Premise, ...]:

@@ -23,7 +23,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from ..equations import Proved
-from ..hypotheses import PERIODIC
+from ..hypotheses import PERIODIC, Hypothesis
 from ..results.steady_state import (
     closure,
     drift,
@@ -33,7 +33,7 @@ from ..results.steady_state import (
     steady_state,
 )
 from ..rules.algebra import Insert, substitute
-from ..rules.assumption import assume, define, defined
+from ..rules.assumption import RESPONSE, assume, define, defined
 from ..rules.drift import first_order
 from ..rules.growth import AtInfinity, Diverges
 from ..rules.limits import Passes, forever, later, one_period_later
@@ -51,7 +51,7 @@ bracket = (4 * f_c - 2) * roughness - f_c * (4 * roughness - 2 * closure)
 steady = steady_state()
 """The limit of h/sigma and what it rests on, for the law of the note."""
 
-asymptotic_response = define(sp.Eq(forever(G - G_inf.subs(t, 0)), 0))
+asymptotic_response = assume(Hypothesis(sp.Eq(forever(G - G_inf.subs(t, 0)), 0)))
 """(11) in a form that is not vacuous: the field itself has a limit."""
 
 every_field = Passes(sp.Eq(forever(G - G_inf), 0))(
@@ -60,8 +60,8 @@ every_field = Passes(sp.Eq(forever(G - G_inf), 0))(
 """(11) as printed holds for every field, with G_inf = G."""
 
 stabilised_response = (
-    define(sp.Eq(rate("G_inf") - later(rate("G_inf")), 0)),
-    define(sp.Eq(forever(rate("G") - rate("G_inf")), 0)),
+    assume(Hypothesis(sp.Eq(rate("G_inf") - later(rate("G_inf")), 0))),
+    assume(Hypothesis(sp.Eq(forever(rate("G") - rate("G_inf")), 0))),
 )
 """(12), for rates as its text says."""
 
@@ -129,7 +129,7 @@ asymptote = drift(linear_approach)
 increment = defined(
     u_cum,
     later(u_inf) - u_inf,
-    define(sp.Eq(later(rate("u_inf")), rate("u_inf"))),
+    define(RESPONSE),
 )
 """(20): the wear of one cycle of the asymptotic response."""
 

@@ -14,10 +14,11 @@ from ..language import defined_by
 from ..note.model import START, WORDS, law_of
 from ..parts import bound, nonzero
 from ..reals import holds
-from ..symbols import DATA, EXTREMES, symbol, t
+from ..symbols import DATA, EXTREMES, rate, symbol, t
 from ..zero import is_zero
 from .algebra import inserted
 from .averages import EXPANSION, require_expansion
+from .limits import later
 from .proving import (
     coefficients,
     in_words,
@@ -40,6 +41,8 @@ _MEANT = {
     symbol("U_mean"): sp.Integral(LOAD, (t, 0, symbol("T"))) / symbol("T"),
 }
 """Names of the model, its load and the expansion with the only definitions that they may have."""
+RESPONSE = sp.Eq(later(rate("u_inf")), rate("u_inf"))
+"""What (12) says of the asymptotic response in wear: all that this name of the vocabulary means."""
 _GIVEN = DATA | EXTREMES | {"tau", "omega", "m", "s_0", "p_s", "u_s", "sigma_s"}
 """Names that have a meaning already: data, and names that rules use."""
 _AT_EVERY_TIME = ((t,), (symbol("tau"),))
@@ -71,7 +74,7 @@ class Assume(Rule):
         equation = isinstance(claim, (Equality, Limit)) or relation == EXPANSION.relation
         if kind in _HIDDEN and not equation:
             raise RuleError(f"{given.text}: no equation")
-        supposes = named and not isinstance(claim, Property)
+        supposes = named and not isinstance(claim, Property) and relation != RESPONSE
         adds = _supposed(claim.relation, premises) if supposes else ()
         return Conclusion(claim, adds=(given, *adds))
 
@@ -94,7 +97,8 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     restricts no other quantity, and need not be shown.  RuleError if no relation expresses the
     condition, or if the name is not new.
     """
-    name, value, slope = *relation.args, sp.S.One
+    name, value = relation.args
+    slope: sp.Expr = sp.S.One
     if not name.is_Symbol:
         name, value, slope = _solved(relation) or (name, value, slope)
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
@@ -152,36 +156,28 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr, sp.Expr] | None:
 
 
 def _solvable(relation: sp.Equality) -> sp.Tuple | None:
-    """Return the sides of an equation of new fields that has a solution for all data and others,
-    else None.
+    """Return the sides of an equation of new fields that determines one of them for all data and
+    others, else None.
 
-    The unknowns are the fields that it defines and their rates; each is replaced by a variable.
-    The equation, or the expression whose limit it gives, must be linear in them.  Either zero
-    solves it, or it has no limit and no rate, and one unknown, of any sign, has a factor that is
-    never zero and occurs in it once.
+    The unknowns are the fields that it defines; each is replaced by a variable.  The equation must
+    be linear in them, and one unknown, of any sign, has a factor that is never zero and occurs in
+    it once.
     """
-    tends = isinstance(relation.lhs, sp.Limit)
-    sides = sp.Tuple(relation.lhs.args[0] if tends else relation.lhs, relation.rhs)
-    whole = sides[0] - sides[1]
-    fields = _new_fields(whole, relation)
-    rates = {d for d in whole.atoms(sp.Derivative) if d.expr in fields}
-    parts = (*rates, *fields - {d.expr for d in rates})
-    own = {part: sp.Dummy(real=True) for part in parts}
-    found = coefficients(whole, *parts)
-    if not parts or found is None or _is_bound(sides, relation):
+    sides = sp.Tuple(*relation.args)
+    unknowns = [*_new_fields(sides, relation)]
+    own = {unknown: sp.Dummy(real=True) for unknown in unknowns}
+    found = coefficients(relation.lhs - relation.rhs, *unknowns)
+    if not unknowns or found is None or _is_bound(sides, relation):
         return None
-    *slopes, rest = found
-    if rest == 0 and not any(part.is_positive for part in parts):
-        return sides.xreplace(own)
-    heads = [part.func for part in parts]
+    heads = [unknown.func for unknown in unknowns]
     solved = any(
         holds(nonzero(slope))
-        and not part.is_nonnegative
-        and heads.count(part.func) == 1
-        and part.args in _AT_EVERY_TIME
-        for part, slope in zip(parts, slopes, strict=True)
+        and not unknown.is_nonnegative
+        and heads.count(unknown.func) == 1
+        and unknown.args in _AT_EVERY_TIME
+        for unknown, slope in zip(unknowns, found[:-1], strict=True)
     )
-    return sides.xreplace(own) if solved and not tends and not rates else None
+    return sides.xreplace(own) if solved else None
 
 
 def _new_fields(expr: sp.Basic, relation: sp.Equality) -> set[sp.Expr]:
@@ -191,8 +187,7 @@ def _new_fields(expr: sp.Basic, relation: sp.Equality) -> set[sp.Expr]:
 
 def _is_bound(sides: sp.Tuple, relation: sp.Equality) -> bool:
     """Return whether a new field is in an integral or the like: one that need not exist."""
-    nodes = (node for node in sp.preorder_traversal(sides) if bound(node))
-    return any(_new_fields(e, relation) for e in nodes if not isinstance(e, sp.Derivative))
+    return any(_new_fields(e, relation) for e in sp.preorder_traversal(sides) if bound(e))
 
 
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:

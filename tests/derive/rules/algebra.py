@@ -340,8 +340,11 @@ FAMILIES = (
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c <= h_0), (0, True))),
     }),
     Family(defined_as, (
-        equal(rate("G"), 0), equal(G * q, -f_c),
+        equal(G * q, -f_c), equal(later(rate("u_inf")), rate("u_inf")),
     ), {
+        # with G = 1 it would hide h = u_a
+        "what is zero unless something else is": ("a new name", equal(G * (h - u_a), 0)),
+        "what is constant": ("a new name", equal(rate("G"), 0)),
         # a square load
         "what has the rate of the load": ("a new name", equal(rate("G"), rate("U_a"))),
         "what is -1 where it is not negative, else 1": ("a new name",
