@@ -8,7 +8,7 @@ Overview
 Key results
     Export            the files, from judgements and a record
     compile_faults    the faults that Coq finds in them
-    AXIOMS            the axioms that theorems may rest on: those of the classical reals
+    AXIOMS            the beginnings of the axioms that theorems may rest on
 """
 
 from __future__ import annotations
@@ -31,16 +31,14 @@ LIBRARY = Path(__file__).parent / "library"
 THEOREMS = ("Tanh", "Limits", "Integrals", "Drift", "Tactics")
 """The files of the library, each after those that it needs."""
 
-AXIOMS = frozenset(
-    {
-        "ClassicalDedekindReals.sig_forall_dec",
-        "ClassicalDedekindReals.sig_not_dec",
-        "FunctionalExtensionality.functional_extensionality_dep",
-        "Classical_Prop.classic",
-    }
+AXIOMS = (
+    "ClassicalDedekindReals.sig_forall_dec",
+    "ClassicalDedekindReals.sig_not_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+    *("PrimInt63.", "Uint63."),
 )
-MACHINE_INTEGERS = ("PrimInt63.", "Uint63.")
-"""Coq's own 63-bit integers, with which its interval arithmetic computes."""
+"""Those of the classical reals, and Coq's own 63-bit integers, of its interval arithmetic."""
 PACKAGES = "coq libcoq-coquelicot libcoq-interval"
 
 HEAD = f"""From Coq Require Import Reals Lra Psatz.
@@ -69,19 +67,21 @@ class Export:
     known: Record = field(default_factory=record)
 
     @cached_property
-    def _stated(self) -> tuple[dict[str, Step], dict[str, str]]:
-        closed = {key for key, row in self.known.items() if row["closed"]}
-        return steps((step for e in self.equations for step in e.steps), closed)
+    def stated(self) -> dict[str, Step]:
+        """Return all steps that can be stated, by their keys."""
+        return steps((step for e in self.equations for step in e.steps), self.known)
 
     @property
     def steps(self) -> list[Step]:
         """Return the steps to prove, premises first."""
-        return [step for step in self._stated[0].values() if not step.assumed]
+        return [step for step in self.stated.values() if not step.assumed]
 
     @property
     def counts(self) -> dict[str, int]:
         """Return the numbers of all steps, of closed ones, and of those that cannot be stated."""
-        closed, unstated = sum(step.closed for step in self.steps), len(self._stated[1])
+        derived = (step for e in self.equations for step in e.steps if step.parents)
+        unstated = len({str(step.relation) for step in derived if not key(step)})
+        closed = sum(step.closed for step in self.steps)
         return {"steps": len(self.steps) + unstated, "closed": closed, "unstated": unstated}
 
     @property
@@ -119,11 +119,9 @@ class Export:
     @property
     def world(self) -> str:
         """Return the file that declares the quantities."""
-        stated = self._stated[0].values()
-        relations = [s.relation for s in stated]
-        relations += [h.relation for s in stated for h in s.judgement.hypotheses]
-        relations += refutations.RELATIONS
-        return f"{HEAD}Open Scope R_scope.\n\n{world(relations)}"
+        relations = [s.relation for s in self.stated.values()]
+        relations += [p.relation for s in self.stated.values() for p in s.statement.premises]
+        return f"{HEAD}Open Scope R_scope.\n\n{world((*relations, *refutations.RELATIONS))}"
 
     @cached_property
     def files(self) -> dict[str, str]:
@@ -138,25 +136,20 @@ class Export:
             homes = dict.fromkeys(home[step.name] for step in refuting.values())
             head = "From Interval Require Import Tactic.\n" + _importing(("World", *homes))
             files["Refutations"] = head + refutations.text(refuting)
-        files["Assumptions"] = self._assumptions(files)
+        proved = re.findall(r"^Lemma (\w+)", "".join(files.values()), re.MULTILINE)
+        everything = ", ".join(f"@{name}" for name in proved) or "I"
+        files["Assumptions"] = (
+            f"From Wear Require Import {' '.join(files)}.\n"
+            f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
+        )
         return files
 
     @property
     def refuting(self) -> dict[str, Step]:
         """Return the steps that contradict claims of the note; none unless all are closed."""
-        ids = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
-        closed = {i: step for i, k in ids.items() if (step := self._stated[0][k]).closed}
-        return closed if len(closed) == len(refutations.NEEDS) else {}
-
-    def _assumptions(self, files: Iterable[str]) -> str:
-        """Return the file that prints the axioms of all theorems together."""
-        proved = [step.name for step in self.steps if step.closed]
-        proved += refutations.NAMES.values() if self.refuting else ()
-        everything = ", ".join(f"@{name}" for name in proved) or "I"
-        return (
-            f"From Wear Require Import {' '.join(files)}.\n"
-            f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
-        )
+        needed = {e.id: key(e.statements[0]) for e in self.equations if e.id in refutations.NEEDS}
+        found = {i: self.stated[k] for i, k in needed.items() if self.stated[k].closed}
+        return found if len(found) == len(refutations.NEEDS) else {}
 
     def write(self, folder: Path, files: Mapping[str, str] | None = None) -> None:
         """Write library, files (default: all of them) and a Makefile for them.
@@ -168,14 +161,22 @@ class Export:
         texts = {f"{name}.v": text for name, text in (texts | dict(files)).items()}
         targets = " ".join(f"{name}.vo" for name in files)
         texts["Makefile"] = f"all: {targets}\n{MAKEFILE}"
-        present = {file for file in texts if (folder / file).is_file()}
-        same = {f for f in present if (folder / f).read_bytes() == texts[f].encode()}
-        write_all(folder, {file: texts[file] for file in texts if file not in same})
+        for file in [file for file in texts if (folder / file).is_file()]:
+            if (folder / file).read_bytes() == texts[file].encode():
+                del texts[file]
+        write_all(folder, texts)
 
 
 def _importing(files: Iterable[str]) -> str:
     """Return the first lines of a file, which import other files."""
     return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
+
+
+def ran(folder: Path, *command: str, said: str = "") -> subprocess.CompletedProcess[str]:
+    """Run a program in a folder, with something said to it."""
+    return subprocess.run(
+        command, cwd=folder, input=said, capture_output=True, text=True, check=False
+    )
 
 
 def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:
@@ -185,13 +186,7 @@ def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> 
     """
     if shutil.which("coqc") is None or shutil.which("make") is None:
         raise MissingError(f"coqc and make are needed: apt install make {PACKAGES}")
-    done = subprocess.run(
-        ["make", "-s", "-k", f"-j{jobs}", *targets],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = ran(folder, "make", "-s", "-k", f"-j{jobs}", *targets)
     if "Cannot find a physical path" in done.stdout:
         raise MissingError(f"a library of Coq is missing: apt install {PACKAGES}")
     if done.returncode or targets:
@@ -200,5 +195,5 @@ def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> 
     if "Closed under the global context" not in report and "Axioms:" not in report:
         return "Coq does not report the axioms of the theorems\n"
     axioms = set(re.findall(r"^([\w.]+)\s*:", report.partition("Axioms:")[2], re.MULTILINE))
-    other = {name for name in axioms - AXIOMS if not name.startswith(MACHINE_INTEGERS)}
-    return "".join(f"an axiom that is not pinned: {name}\n" for name in sorted(other))
+    other = sorted(name for name in axioms if not name.startswith(AXIOMS))
+    return "".join(f"an axiom that is not pinned: {name}\n" for name in other)

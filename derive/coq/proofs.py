@@ -3,29 +3,31 @@
 Overview
     SymPy proposes proofs, Coq checks them: a wrong proposal does not compile.  A claim is reduced
     to an identity: after the equations that it rests on are inserted, the difference of its sides
-    is a multiple of that of a known relation, or an expression of manifest sign.  General theorems
-    are in ``theorems``, limits in ``limits``.
+    is a multiple of that of a known relation, or an expression of manifest sign.  A limit passes
+    through an expression that SymPy finds: the load is expressed by quantities with known limits,
+    the wear by quantities that diverge.  General theorems are in ``theorems``.
 Key results
     script    the proof of a step
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable
 from itertools import product
 from operator import methodcaller
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
-from sympy.core.relational import Relational
 from sympy.core.relational import _Inequality as Inequality
 
 from ..claims import Claim, claim_of
-from ..symbols import t
-from . import limits, theorems
+from ..rules.limits import in_terms_of, later
+from ..symbols import symbol, t
+from . import theorems
 from .printer import term
 from .steps import Step, stated
 
+_T = symbol("T")
 _NAMES = (sp.Symbol, AppliedUndef, sp.Derivative, sp.log)
 
 
@@ -39,10 +41,10 @@ def _body(step: Step) -> list[str]:
     if cited := theorems.proof(step):
         return [cited]
     if step.limits or step.relation.has(sp.Limit):
-        return limits.proof(step)
-    start = ["intros t Ht.", step.signs()] if step.timed else []
+        return _limit(step)
+    start = ["intros t Ht.", step.signs()] if step.timed else [step.signs("")]
     equates = isinstance(step.relation, sp.Equality)
-    return [*start, f"{_equation(step) if equates else _inequality(step, step.relation)}."]
+    return [*start, f"{_equation(step) if equates else _inequality(step)}."]
 
 
 def _equation(step: Step) -> str:
@@ -77,113 +79,78 @@ def _inserted(goal: Claim, equations: Iterable[sp.Basic]) -> Claim:
     return goal
 
 
-def _inequality(step: Step, claim: sp.Basic) -> str:
+def _inequality(step: Step) -> str:
     """Return the tactic for an inequality, or for two."""
     implicit = (f for f in step.ancestors if f.equates and not isinstance(f.relation.lhs, _NAMES))
-    facts = list(dict.fromkeys((*step.sources, *implicit)))
-    bounds = [b for f in (*facts, *step.hypotheses) for b in _bounds(f.relation)]
-    goal = _inserted(claim_of(claim), [f.relation for f in facts if f.equates]).relation
-    start = f"{stated(f for f in facts if f.equates or not step.timed)}insert; "
+    equations = [f for f in dict.fromkeys((*step.sources, *implicit)) if f.equates]
+    goal = _inserted(claim_of(step.relation), (f.relation for f in equations)).relation
+    start = f"{stated(equations)}insert; "
     if isinstance(goal, sp.Equivalent):
-        if step.rule == "Substitute":
-            known, *equations = (fact.at() for fact in step.given)
-            rewritten = "".join(f"rewrite ({equation}) in Q; " for equation in equations)
-            return f"pose proof ({known}) as Q; {rewritten}exact Q"
-        return f"{start}split; intro Q; first [arithmetic | from_inequality Q 1]"
+        return f"{start}equivalent"
     if isinstance(goal, sp.And):
-        return f"{start}split; [{' | '.join(_first(_ways(part, bounds)) for part in goal.args)}]"
-    return start + _first(_ways(goal, bounds))
+        return f"{start}split; [{' | '.join(map(_tactic, goal.args))}]"
+    return start + _tactic(goal)
 
 
-def _first(tactics: Iterable[str]) -> str:
-    """Return the first of several tactics that succeeds."""
-    return f"first [{' | '.join(dict.fromkeys(tactics))}]"
+def _tactic(goal: sp.Basic) -> str:
+    """Return the tactic for one inequality."""
+    return f"by_signs ({term(_manifest(goal))})" if isinstance(goal, Inequality) else "arithmetic"
 
 
-Bound = tuple[sp.Expr, sp.Expr]
-"""The smaller and the larger side."""
-
-
-def _bounds(fact: sp.Basic) -> Iterator[Bound]:
-    """Yield the inequalities in a relation."""
-    for part in fact.args if isinstance(fact, sp.And) else (fact,):
-        if isinstance(part, Inequality):
-            if isinstance(part.lts, sp.Abs):
-                yield from ((part.lts.args[0], part.gts), (-part.gts, part.lts.args[0]))
-            else:
-                yield part.lts, part.gts
-
-
-def _ways(goal: sp.Basic, bounds: Sequence[Bound]) -> Iterator[str]:
-    """Yield tactics for one inequality."""
-    if isinstance(goal, Relational):
-        yield from _ordered(goal)
-    yield "solve [arithmetic]"
-    if isinstance(goal, Inequality):
-        forms = (*_multiples(goal, bounds), *_slacks(goal, bounds), *_manifest(goal))
-        yield from (f"manifest ({term(form)})" for form in forms)
-    yield "same_as_known"
-
-
-def _multiples(goal: Inequality, bounds: Sequence[Bound]) -> Iterator[sp.Expr]:
-    """Yield the difference of the sides as multiples of the differences of known inequalities."""
-    for low, high in bounds:
-        factor = sp.factor(sp.cancel((goal.gts - goal.lts) / (high - low)))
-        if factor.count_ops() < (goal.gts - goal.lts).count_ops():
-            yield sp.Mul(factor, high - low, evaluate=False)
-
-
-def _slacks(goal: Inequality, bounds: Sequence[Bound]) -> Iterator[sp.Expr]:
-    """Yield the difference of the sides with positive coefficients in the slacks of inequalities.
-
-    The slack of ``a <= b`` is ``b - a``; it replaces a field or datum in it.
-    """
-    numerator, denominator = sp.fraction(sp.together(goal.gts - goal.lts))
-    places: dict[sp.Expr, list[sp.Expr]] = {}
-    for low, high in bounds:
-        for atom in sorted((high - low).atoms(AppliedUndef, sp.Symbol), key=str):
-            if atom != t and numerator.has(atom) and sp.diff(high - low, atom) in (1, -1):
-                places.setdefault(atom, []).append(high - low)
-    chosen = sorted(places, key=lambda a: (not a.args, str(a)))[:3]
-    for choice in product(*([*places[a], None] for a in chosen)):
-        inside, back = numerator, {}
-        for i, (atom, rest) in enumerate(zip(chosen, choice, strict=True)):
-            if rest is not None:
-                name = sp.Symbol(f"rest_{i}", positive=True)
-                back[name] = rest
-                inside = sp.expand(inside).subs(atom, atom + (name - rest) / sp.diff(rest, atom))
-        inside = sp.expand(inside)
-        if back and all(part.as_coeff_Mul()[0] > 0 for part in sp.Add.make_args(inside)):
-            yield (inside / sp.factor(denominator)).xreplace(back)
-
-
-def _manifest(goal: Relational) -> Iterator[sp.Expr]:
-    """Yield forms of the difference of the sides that may show its sign.
-
-    One has factors that are positive where all quantities are below one, the other a numerator of
-    separate terms.
-    """
+def _manifest(goal: Inequality) -> sp.Expr:
+    """Return the difference of the sides by factors that are positive where all quantities are
+    below one, if it is."""
     difference = goal.gts - goal.lts
     hidden = sorted(difference.atoms(sp.Function, sp.Derivative), key=sp.default_sort_key)
     functions = {f: sp.Symbol(f"field_{i}", real=True) for i, f in enumerate(hidden)}
-    back = {dummy: f for f, dummy in functions.items()}
     flat = difference.xreplace(functions)
     point = {s: sp.Rational(3 + i, 20) for i, s in enumerate(sorted(flat.free_symbols, key=str))}
     factored = sp.factor(flat)
     if flat.subs(point) > 0:
         factored = sp.Mul(*(f * sp.sign(f.subs(point)) for f in sp.Mul.make_args(factored)))
-    yield factored.xreplace(back)
-    numerator, denominator = sp.fraction(sp.together(flat))
-    yield (sp.expand(numerator) / sp.factor(denominator)).xreplace(back)
+    return factored.xreplace({dummy: f for f, dummy in functions.items()})
 
 
-def _ordered(goal: Relational) -> Iterator[str]:
-    """Yield tactics by the increase of tanh, or the decrease of a law, on the two sides."""
-    low, high = goal.lts, goal.gts
-    form = term(next(_manifest(goal)))
-    for a in sorted(low.atoms(sp.tanh), key=sp.default_sort_key) if high.has(sp.exp) else ():
-        yield f"pose proof (share_below_exp ({term(a.args[0])})) as Q; manifest_by Q ({form})"
-    for function in (sp.tanh, sp.Function("phi", positive=True)):
-        for a in sorted(low.atoms(function), key=sp.default_sort_key):
-            for b in sorted(high.atoms(function), key=sp.default_sort_key):
-                yield f"ordered ({term(a.args[0])}) ({term(b.args[0])}) ({form})"
+def _limit(step: Step) -> list[str]:
+    """Return the lines of a proof by known limits."""
+    if not step.relation.has(sp.Limit):
+        return [f"by_name ({step.limits[0].proof})."]
+    state = "known_and_later T" if step.relation.has(t + _T) else "known_limit"
+    known = [f"{state} ({limit.proof})." for limit in step.limits]
+    left, right = step.relation.args
+    if right.has(sp.Limit) or not isinstance(left, sp.Limit):
+        return [*known, "same_limit."]
+    return [*known, *_passes(step, left.args[0])]
+
+
+def _passes(step: Step, inside: sp.Expr) -> list[str]:
+    """Write the expression in terms of known limits, and let the limit pass through it."""
+    equations = [f for f in step.given if f.equates and f.timed]
+    for equation in equations:
+        inside = inside.subs(*equation.relation.args)
+    lines = [f"apply (tends_ext (fun t => {_composed(step, inside)})).", "{ intros t Ht."]
+    lines += [step.signs()]
+    if inside.has(t + _T):
+        lines += ["assert (HT : 0 <= T + t) by lra.", step.signs("(T + t)", "HT")]
+    return [*lines, f"{stated(equations)}insert; rewrite ?derive_later; identity. }}", "limit."]
+
+
+def _composed(step: Step, inside: sp.Expr) -> str:
+    """Return an expression as a function of known limits, and of them one period later.
+
+    If none occurs, it should equal the first one in another form.
+    """
+    arguments: dict[sp.Symbol, str] = {}
+    for time, limit in product(("t", "T + t"), step.limits):
+        quantity, value = limit.relation.lhs.args[0], limit.relation.rhs
+        name = sp.Symbol(f"known{len(arguments)}", positive=True)
+        part, form = (1 / name, "/ ({})") if value == sp.oo else (name, "{}")
+        replaced = in_terms_of(inside, quantity if time == "t" else later(quantity), part)
+        if replaced.has(name):
+            inside, arguments[name] = (
+                replaced,
+                f"((fun t => {form.format(term(quantity))}) ({time}))",
+            )
+    if not arguments:
+        return term(step.limits[0].relation.lhs.args[0] if step.limits else inside)
+    return f"(fun {' '.join(map(str, arguments))} => {term(inside)}) {' '.join(arguments.values())}"

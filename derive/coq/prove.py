@@ -11,14 +11,13 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..catalogue import all_equations
 from ..equations import Equation
-from .export import HEAD, Export, compile_faults
+from .export import HEAD, Export, compile_faults, ran
 from .steps import RECORD, Record, Row, Step, record
 
 _FOLDER = Path("build/prove")
@@ -26,17 +25,17 @@ _SETTINGS = "From Wear Require Import World.\nOpen Scope R_scope.\nSet Default T
 """The time limit is in seconds, for one sentence of a proof."""
 
 
-def renewed(equations: Sequence[Equation], known: Record) -> dict[str, Row]:
+def renewed(equations: tuple[Equation, ...], known: Record) -> dict[str, Row]:
     """Return the record of the steps of equations, as Coq closes them.
 
     All steps are stated as if they were closed.  Those that fail and cite no other that fails are
     open; the rest is tried again without them.
     """
-    proved = set(_proposed(Export(tuple(equations), known)).values())
+    proved = set(_proposed(Export(equations, known)).values())
     refused: set[str] = set()
     while True:
-        rows = {s.key: _row(s, s.name in refused) for s in Export(tuple(equations)).steps}
-        export = Export(tuple(equations), rows)
+        rows = {s.key: _row(s, s.name in refused) for s in Export(equations).steps}
+        export = Export(equations, rows)
         texts = _proposed(export)
         failed = _unproved(export, texts, proved)
         if not failed:
@@ -56,14 +55,7 @@ def _proposed(export: Export) -> dict[str, str]:
         if step.closed:
             try:
                 texts[step.name] = export.lemma(step)
-            except (
-                LookupError,
-                RuntimeError,
-                StopIteration,
-                TypeError,
-                ValueError,
-                AttributeError,
-            ):
+            except Exception:  # no form of a proof fits the claim
                 texts[step.name] = ""
     return texts
 
@@ -78,10 +70,7 @@ def _unproved(export: Export, texts: Mapping[str, str], proved: set[str]) -> set
         if text in proved:
             text = re.sub(r"Proof\..*Qed\.", "Admitted.", text, flags=re.DOTALL)
         session += f"{text}Abort All.\nLocate {name}.\n"
-    command = ["coqtop", "-q", "-w", "none", "-Q", ".", "Wear"]
-    done = subprocess.run(
-        command, cwd=_FOLDER, input=session, capture_output=True, text=True, check=False
-    )
+    done = ran(_FOLDER, "coqtop", "-q", "-w", "none", "-Q", ".", "Wear", said=session)
     return texts.keys() - set(re.findall(r"Constant Top\.(step_\w+)", done.stdout))
 
 

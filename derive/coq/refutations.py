@@ -5,13 +5,12 @@ Overview
     and the negation of the printed relation.  The lemmas are in ``library/refutations.jinja``.
 Key results
     text     the lemmas, from the steps of some equations by id
-    NAMES    their names, by the claim of the note that they decide
+    NEEDS    the equations that the lemmas rest on
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from types import MappingProxyType
 
 import sympy as sp
 
@@ -22,15 +21,6 @@ from ..written import read
 from .steps import Step
 from .theorems import template
 
-NAMES = MappingProxyType(
-    {
-        "C24": "bracket_is_not_zero",
-        "C27": "no_affine_asymptote",
-        "C32": "not_a_limit_of_validity",
-        "C36": "another_wear_per_cycle",
-        "contact": "contact_in_the_long_run",
-    }
-)
 NEEDS = ("19", "18", "closure-ratio", "21")
 
 (_EQ_16B,), (_EQ_19,), (_EQ_21,) = (written("printed", TEXTS[each]) for each in ("16b", "19", "21"))
@@ -50,7 +40,6 @@ RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, _TOTAL, *map(read, _AT_REST))
 def text(steps: Mapping[str, Step]) -> str:
     """Return the lemmas; ``steps`` are those of the equations in NEEDS."""
     return template("refutations").render(
-        names=NAMES,
         drift=steps["19"].parents[0],
         rate=steps["18"],
         ratio=steps["closure-ratio"],

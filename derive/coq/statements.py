@@ -31,10 +31,13 @@ from . import printer
 
 
 @dataclass(frozen=True)
-class Premise:
-    """One premise of a lemma: its name, its proposition, and the relation that this states."""
+class Fact:
+    """A proposition and the Coq term that proves it; the relation that it states, or none.
 
-    label: str
+    A premise of a lemma is proved by its name.
+    """
+
+    proof: str
     proposition: str
     relation: sp.Basic = sp.true
 
@@ -43,11 +46,20 @@ class Premise:
         """Return whether it holds for every t >= 0."""
         return printer.timed(self.proposition)
 
+    @property
+    def equates(self) -> bool:
+        """Return whether it is an equation that contains no limit."""
+        return isinstance(self.relation, sp.Equality) and not self.relation.has(sp.Limit)
+
+    def at(self, time: str = "t", instant: str = "Ht") -> str:
+        """Return the proof at a time; ``instant`` proves that it is no time before 0."""
+        return f"{self.proof} {time} {instant}" if self.timed else self.proof
+
 
 _LAW = (
-    Premise("law_positive", "forall r, 0 < phi r"),
-    Premise("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
-    Premise("law_differentiable", "forall r, ex_derive phi r"),
+    Fact("law_positive", "forall r, 0 < phi r"),
+    Fact("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
+    Fact("law_differentiable", "forall r, ex_derive phi r"),
 )
 """The assumptions on an unspecified contact law."""
 
@@ -56,7 +68,7 @@ _LAW = (
 class Statement:
     """``premises -> conclusion``, in any world."""
 
-    premises: tuple[Premise, ...]
+    premises: tuple[Fact, ...]
     conclusion: str
 
     @property
@@ -68,31 +80,21 @@ class Statement:
 @cache
 def statement(judgement: Judgement) -> Statement:
     """Return the lemma of a judgement; UntranslatableError if Coq's library lacks its terms."""
-    of_time = _clocks(judgement)
-    supposed = {h.relation.xreplace(of_time): h for h in judgement.hypotheses}
-    relations = (claim(judgement), *supposed)
-    free = frozenset().union(*(relation.free_symbols for relation in relations))
-    premises = [
-        _premise(f"for_{_words(hypothesis.text)}", relation)
-        for relation, hypothesis in supposed.items()
-        if relation != sp.true
-    ]
-    premises += [
-        _premise(f"domain_{printer.quantity(atom)}", relation)
-        for relation in judgement.domains
-        if (atom := relation.args[0]).args == (t,) or atom in free - {t}
-    ]
-    rates = {d for r in relations for d in r.atoms(sp.Derivative) if t in d.variables}
-    moving = sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)})
-    premises += [
-        Premise(f"smooth_{field}", f"forall t, 0 <= t -> ex_derive {field} t") for field in moving
-    ]
-    conclusion = printer.always(claim(judgement))
-    if any(
-        re.search(r"\bphi\b", said) for said in (conclusion, *(p.proposition for p in premises))
-    ):
-        premises += _LAW
-    return Statement(_distinct(premises), conclusion)
+    of_time, said = _clocks(judgement), claim(judgement)
+    supposed = {h.relation.xreplace(of_time): f"for_{_words(h.text)}" for h in judgement.hypotheses}
+    free = said.free_symbols.union(*(relation.free_symbols for relation in supposed))
+    supposed.pop(sp.true, None)
+    for domain in judgement.domains:
+        if (atom := domain.args[0]).args == (t,) or atom in free - {t}:
+            supposed.setdefault(domain, f"domain_{printer.quantity(atom)}")
+    premises = [Fact(label, printer.always(r), r) for r, label in supposed.items()]
+    rates = {d for r in (said, *supposed) for d in r.atoms(sp.Derivative) if t in d.variables}
+    for field in sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)}):
+        premises.append(Fact(f"smooth_{field}", f"forall t, 0 <= t -> ex_derive {field} t"))
+    stated = Statement(_distinct(premises), printer.always(said))
+    if re.search(r"\bphi\b", stated.text):
+        return replace(stated, premises=(*stated.premises, *_LAW))
+    return stated
 
 
 def _clocks(judgement: Judgement) -> dict[sp.Basic, sp.Expr]:
@@ -101,25 +103,21 @@ def _clocks(judgement: Judgement) -> dict[sp.Basic, sp.Expr]:
     return {e.lhs: e.rhs for e in equations if e.lhs.is_Symbol and e.lhs.name in CLOCKS - {t.name}}
 
 
-def _premise(label: str, relation: sp.Basic) -> Premise:
-    return Premise(label, printer.always(relation), relation)
-
-
 def _words(text: str) -> str:
     """Return a hypothesis in words as part of a name."""
     words = re.sub(r"\W+", "_", text.encode("ascii", "ignore").decode()).strip("_").lower()
     return words.removeprefix("the_")[:40].rstrip("_")
 
 
-def _distinct(premises: Iterable[Premise]) -> tuple[Premise, ...]:
-    """Return the premises, each once, with distinct labels."""
+def _distinct(premises: Iterable[Fact]) -> tuple[Fact, ...]:
+    """Return the premises, each once, with distinct names."""
     taken: Counter[str] = Counter()
-    distinct: dict[str, Premise] = {}
+    distinct: dict[str, Fact] = {}
     for premise in premises:
         if premise.proposition not in distinct:
-            taken[premise.label] += 1
-            number = f"_{count}" if (count := taken[premise.label]) > 1 else ""
-            distinct[premise.proposition] = replace(premise, label=premise.label + number)
+            taken[premise.proof] += 1
+            number = f"_{count}" if (count := taken[premise.proof]) > 1 else ""
+            distinct[premise.proposition] = replace(premise, proof=premise.proof + number)
     return tuple(distinct.values())
 
 
@@ -154,8 +152,8 @@ def claim(judgement: Judgement) -> sp.Basic:
 
 
 def world(relations: Iterable[sp.Basic]) -> str:
-    """Return the record of all quantities, with their types, and worlds that differ in the wear or
-    in the bound of the load.
+    """Return the record of all quantities, with their types, and worlds that differ in the bound
+    of the load.
 
     UntranslatableError if two of them would have one name.
     """
@@ -173,8 +171,5 @@ def world(relations: Iterable[sp.Basic]) -> str:
     fields.pop("phi", None)
     rows = ";\n".join(f"  {name} :{kind}" for name, kind in sorted(fields.items()))
     same = "; ".join(f"{name} := {name}" for name in sorted(fields))
-    others = (
-        f"Definition with_{change} {{w : world}} ({named}) : world := {{| {same} |}}.\n"
-        for change, named in (("wear", "u_c : R -> R"), ("bound", "U : R"))
-    )
-    return f"Class world := {{\n{rows}\n}}.\n{''.join(others)}"
+    other = f"Definition with_bound {{w : world}} (U : R) : world := {{| {same} |}}."
+    return f"Class world := {{\n{rows}\n}}.\n{other}\n"

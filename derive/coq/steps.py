@@ -5,8 +5,7 @@ Overview
     record has the outcome of Coq for each statement, by its hash, for users without Coq.
 Key results
     Step             a judgement with its statement and the steps that it rests on
-    Fact             what a proof may cite
-    steps            the steps of judgements, and the reasons of those that cannot be stated
+    steps            the steps of judgements
     record           the committed record
     proved_by_coq    whether a judgement is closed
 """
@@ -14,7 +13,7 @@ Key results
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -26,31 +25,13 @@ from sympy.logic.boolalg import BooleanTrue
 
 from ..claims import Predicate
 from ..kernel import Judgement
-from .printer import UntranslatableError, timed
-from .statements import Statement, claim, key, statement
+from .printer import timed
+from .statements import Fact, Statement, claim, key, statement
 
 RECORD = Path(__file__).parent / "record.json"
 
 Row = dict[str, Any]
 Record = Mapping[str, Row]
-
-
-@dataclass(frozen=True)
-class Fact:
-    """A claim and the Coq term that proves it; a timed one holds for every t >= 0."""
-
-    relation: sp.Basic
-    proof: str
-    timed: bool
-
-    @property
-    def equates(self) -> bool:
-        """Return whether the claim is an equation that contains no limit."""
-        return isinstance(self.relation, sp.Equality) and not self.relation.has(sp.Limit)
-
-    def at(self, time: str = "t", instant: str = "Ht") -> str:
-        """Return the proof at a time; ``instant`` proves that it is no time before 0."""
-        return f"{self.proof} {time} {instant}" if self.timed else self.proof
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +63,7 @@ class Step:
     @cached_property
     def labels(self) -> dict[str, str]:
         """Return the label of each premise."""
-        return {p.proposition: p.label for p in self.statement.premises}
+        return {p.proposition: p.proof for p in self.statement.premises}
 
     @property
     def assumed(self) -> bool:
@@ -99,16 +80,13 @@ class Step:
         """Return a usable step as a fact."""
         labels = (self.labels[p.proposition] for p in other.statement.premises)
         proof = self.labels.get(other.statement.conclusion) or " ".join((other.name, *labels))
-        return Fact(other.relation, proof, other.timed)
+        return Fact(proof, other.statement.conclusion, other.relation)
 
     @cached_property
     def hypotheses(self) -> list[Fact]:
         """Return the premises that have a relation."""
-        return [
-            Fact(p.relation, p.label, p.timed)
-            for p in self.statement.premises
-            if not isinstance(p.relation, (BooleanTrue, Predicate))
-        ]
+        none = (BooleanTrue, Predicate)
+        return [p for p in self.statement.premises if not isinstance(p.relation, none)]
 
     @cached_property
     def given(self) -> list[Fact]:
@@ -142,26 +120,19 @@ class Step:
 
     @property
     def limits(self) -> list[Fact]:
-        """Return the given limits."""
-        return [f for f in self.given if f.relation.has(sp.Limit)]
-
-    @property
-    def diverging(self) -> Fact:
-        """Return the first given limit that is infinite."""
-        return next(f for f in self.limits if f.relation.rhs == sp.oo)
+        """Return the given limits of known value."""
+        return [f for f in self.given if isinstance(f.relation.args[0], sp.Limit)]
 
     def signs(self, time: str = "t", instant: str = "Ht") -> str:
-        """Return the tactics that state the known signs at a time.
+        """Return the tactics that state the known signs at a time, or without one.
 
         They come from inequalities, and from names that are positive and equal an expression.
         """
         lines = []
         positive = {f.relation.args: f for f in self.hypotheses if isinstance(f.relation, sp.Gt)}
-        for fact in (*self.hypotheses, *self.ancestors):
+        for fact in (f for f in (*self.hypotheses, *self.ancestors) if time or not f.timed):
             known, name = fact.at(time, instant), fact.relation.args[:1]
-            if isinstance(fact.relation, (Inequality, sp.Ne)):
-                lines.append(f"pose proof ({known}).")
-            elif isinstance(fact.relation, sp.And):
+            if isinstance(fact.relation, (Inequality, sp.Ne, sp.And, sp.Equivalent)):
                 lines.append(f"given ({known}).")
             elif fact.equates and (*name, 0) in positive:
                 sign = positive[(*name, sp.S.Zero)].at(time, instant)
@@ -174,28 +145,18 @@ def stated(facts: Iterable[Fact]) -> str:
     return "".join(f"given ({fact.at()}); " for fact in facts)
 
 
-def steps(
-    judgements: Iterable[Judgement], closed: Collection[str]
-) -> tuple[dict[str, Step], dict[str, str]]:
-    """Return judgements as steps by key, premises first, and the reasons of unstatable ones.
+def steps(judgements: Iterable[Judgement], rows: Record) -> dict[str, Step]:
+    """Return the judgements that can be stated as steps by key, premises first.
 
-    Judgements with the same statement and citations are one step; ``closed`` are the keys of
-    steps with a proof.
+    Judgements with the same statement and citations are one step; a record has which are closed.
     """
     known: dict[str, Step] = {}
-    refused: dict[str, str] = {}
     for judgement in judgements:
-        try:
-            lemma = statement(judgement)
-        except UntranslatableError as reason:
-            if judgement.parents:
-                refused[str(judgement.relation)] = str(reason)
-        else:
-            name = key(judgement)
+        if (name := key(judgement)) and name not in known:
             parents = tuple(known[k] for p in judgement.parents if (k := key(p)) in known)
-            new = Step(name, judgement, lemma, parents, claim(judgement), name in closed)
-            known.setdefault(name, new)
-    return known, refused
+            lemma, closed = statement(judgement), rows.get(name, {}).get("closed", False)
+            known[name] = Step(name, judgement, lemma, parents, claim(judgement), closed)
+    return known
 
 
 @cache

@@ -8,10 +8,9 @@ Open Scope R_scope.
 (** ** The rate to first order in 1/t *)
 
 (** What is bounded times what tends to 0. *)
-Lemma bounded_vanishes a e B : (forall t, 0 <= t -> Rabs (a t) <= B) -> tends e 0 ->
-  tends (fun t => e t * a t) 0.
+Lemma bounded_vanishes a e : bounded a -> tends e 0 -> tends (fun t => e t * a t) 0.
 Proof.
-  rewrite !tends_iff; intros Ha He eps Hep.
+  rewrite !tends_iff; intros [B Ha] He eps Hep.
   assert (HB : 0 <= B) by (pose proof (Rabs_pos (a 0)); pose proof (Ha 0); lra).
   destruct (He (eps / (B + 1))) as [t0 Ht0]; [apply Rdiv_lt_0_compat; lra |].
   exists (Rmax 0 t0); intros t Ht; pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
@@ -22,34 +21,26 @@ Qed.
 
 (** What is, for u > 0, [u A(1/u) + a B(1/u)] with bounded a, with A(0) = 0 and B(0) = 0, where
     u -> oo: it tends to A'(0). *)
-Lemma at_infinity (u a A B f : R -> R) (l b : R) : diverges u ->
-  (forall t, 0 <= t -> Rabs (a t) <= b) -> is_derive A 0 l -> A 0 = 0 -> continuous B 0 ->
+Lemma at_infinity (u a A B f : R -> R) (l : R) : diverges u ->
+  bounded a -> is_derive A 0 l -> A 0 = 0 -> continuous B 0 ->
   B 0 = 0 -> (forall t, 0 <= t -> 0 < u t -> f t = u t * A (/ u t) + a t * B (/ u t)) -> tends f l.
 Proof.
   intros Hu Ha HA A0 HB B0 Hf; pose proof (tends_inv_diverges _ Hu) as Z.
   destruct (chord A 0 l HA) as [G [HG [G0 E]]].
   pose proof (passes _ B 0 Z HB) as V; rewrite B0 in V.
   pose proof (passes _ G 0 Z HG) as W; rewrite G0 in W.
-  pose proof (tends_plus _ _ _ _ W (bounded_vanishes a _ b Ha V)) as P.
+  pose proof (tends_plus _ _ _ _ W (bounded_vanishes a _ Ha V)) as P.
   rewrite Rplus_0_r in P; revert P; apply is_lim_ext_loc.
   destruct (proj1 (diverges_iff u) Hu 0) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
   pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0); assert (0 < u t) by (apply H; lra).
   specialize (E (/ u t)); rewrite A0, !Rminus_0_r in E; rewrite Hf, E by lra; field; lra.
 Qed.
 
-(** What is affine in a bounded load is bounded. *)
-Lemma affine_bounded (U : R -> R) (b c0 c1 : R) : (forall t, 0 <= t -> Rabs (U t) <= b) ->
-  forall t, 0 <= t -> Rabs (c0 + c1 * U t) <= Rabs c0 + Rabs c1 * b.
-Proof.
-  intros H t Ht; eapply Rle_trans; [apply Rabs_triang |]; rewrite Rabs_mult.
-  apply Rplus_le_compat_l, Rmult_le_compat_l; [apply Rabs_pos | auto].
-Qed.
-
 (** [u' = F(q)], [u (q - l) - a -> 0] with bounded a, [q -> l] and [u' -> r]:
     [t (u' - r) - F'(l) a / r -> 0]. *)
-Lemma first_order (u q a F : R -> R) (l d r B : R) :
+Lemma first_order (u q a F : R -> R) (l d r : R) :
   (forall t, 0 <= t -> ex_derive u t) -> (forall t, 0 <= t -> Derive u t = F (q t)) ->
-  is_derive F l d -> F l = r -> r <> 0 -> (forall t, 0 <= t -> Rabs (a t) <= B) ->
+  is_derive F l d -> F l = r -> r <> 0 -> bounded a ->
   tends q l -> tends (Derive u) r -> tends (fun t => u t * (q t - l) - a t) 0 ->
   tends (fun t => t * (Derive u t - r) - d / r * a t) 0.
 Proof.
@@ -58,7 +49,7 @@ Proof.
   pose proof (tends_inv _ _ Hr0 (cesaro u r Hu Hr')) as Hut.
   pose proof (tends_mult _ _ _ _ Hut HGq) as Hp.
   pose proof (tends_minus _ _ _ _ Hp (tends_const (/ r * d))) as Hz; rewrite Rminus_eq_0 in Hz.
-  pose proof (bounded_vanishes a _ B Ha Hz) as Hz'.
+  pose proof (bounded_vanishes a _ Ha Hz) as Hz'.
   pose proof (tends_mult _ _ _ _ Hp He) as Hw; rewrite Rmult_0_r in Hw.
   pose proof (tends_plus _ _ _ _ Hz' Hw) as H; rewrite Rplus_0_r in H; revert H.
   assert (N : exists t0, forall t, t0 < t -> u t / t <> 0).
@@ -190,6 +181,18 @@ Proof.
   assert (0 < ln t) by (rewrite <- ln_1; apply ln_increasing; lra).
   assert (ln T < ln t) by (apply ln_increasing; lra).
   unfold v; rewrite ln_div by lra; field; repeat split; lra.
+Qed.
+
+(** The same, where what is added is affine in U, by a function a. *)
+Lemma drift_by_mean (u U a : R -> R) (r m T : R) : 0 < T ->
+  (forall t, 0 <= t -> ex_derive u t) -> continuous_in_time U ->
+  (forall t, 0 <= t -> U (T + t) = U t) -> m = RInt U 0 T / T ->
+  (forall x, a x = a 0 + (a 1 - a 0) * x) -> tends (fun t => t * (Derive u t - r) - a (U t)) 0 ->
+  tends (fun t => (u t - r * t) / ln (t / T)) (a m).
+Proof.
+  intros HT Hu Hc Hp Hm Ha H; rewrite (Ha m); apply logarithmic_drift with U; trivial.
+  - rewrite Hm; unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r; lra.
+  - revert H; apply tends_ext; intros t Ht; rewrite (Ha (U t)); reflexivity.
 Qed.
 
 (** Then u has no affine asymptote, unless m = 0. *)

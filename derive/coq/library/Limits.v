@@ -223,11 +223,33 @@ Proof.
   rewrite Rabs_Ropp in B; assert (Rabs (a - b) < Rabs (a - b)) by (apply B; lra); lra.
 Qed.
 
-(** An exponential of what falls below all bounds. *)
-Lemma exp_vanishes (u a : R -> R) (c b : R) : 0 < c -> diverges u ->
-  (forall t, 0 <= t -> Rabs (a t) <= b) -> tends (fun t => exp (a t - c * u t)) 0.
+(** ** Bounded fields *)
+
+Definition bounded (f : R -> R) := exists b, forall t, 0 <= t -> Rabs (f t) <= b.
+
+Lemma bounded_const c : bounded (fun _ => c).
+Proof. exists (Rabs c); intros; apply Rle_refl. Qed.
+
+Lemma bounded_plus f g : bounded f -> bounded g -> bounded (fun t => f t + g t).
 Proof.
-  intros Hc Hu Ha; apply (is_lim_comp exp (fun t => a t - c * u t) p_infty 0 m_infty is_lim_exp_m).
+  intros [a A] [b B]; exists (a + b); intros t Ht; specialize (A t Ht); specialize (B t Ht).
+  pose proof (Rabs_triang (f t) (g t)); lra.
+Qed.
+
+Lemma bounded_mult f g : bounded f -> bounded g -> bounded (fun t => f t * g t).
+Proof.
+  intros [a A] [b B]; exists (a * b); intros t Ht; rewrite Rabs_mult.
+  apply Rmult_le_compat; auto using Rabs_pos.
+Qed.
+
+Lemma bounded_opp f : bounded f -> bounded (fun t => - f t).
+Proof. intros [a A]; exists a; intros; rewrite Rabs_Ropp; auto. Qed.
+
+(** An exponential of what falls below all bounds. *)
+Lemma exp_vanishes (u a : R -> R) (c : R) : 0 < c -> diverges u -> bounded a ->
+  tends (fun t => exp (a t - c * u t)) 0.
+Proof.
+  intros Hc Hu [b Ha]; apply (is_lim_comp exp (fun t => a t - c * u t) p_infty 0 m_infty is_lim_exp_m).
   - apply (is_lim_ext (fun t => - (c * u t - a t))); [intros; ring |].
     apply (is_lim_opp (fun t => c * u t - a t) p_infty p_infty).
     fold (diverges (fun t => c * u t - a t)); rewrite diverges_iff in *; intros m.

@@ -2,7 +2,7 @@
 
 From Coq Require Import Reals Lra Psatz.
 From Coquelicot Require Import Coquelicot.
-From Wear Require Import Tanh Limits.
+From Wear Require Import Tanh Limits Integrals Drift.
 Open Scope R_scope.
 
 (** An unspecified contact law; what is assumed of it stands in the lemmas. *)
@@ -75,6 +75,19 @@ Lemma root_scaled (a x : R) : 0 < a -> sqrt (x / a ^ 2) = sqrt x / a.
 Proof.
   intro H; unfold Rdiv; rewrite Rmult_comm, sqrt_mult_alt; [| left; apply Rinv_0_lt_compat, pow_lt, H].
   rewrite sqrt_inv, sqrt_pow2 by (try apply pow_lt; lra); ring.
+Qed.
+
+(** What grows with u, over what grows with it at least f times as fast. *)
+Lemma ratio_below (x s a b f u : R) : f * u + b <= s -> 0 < b -> 0 < f -> 0 <= u -> 0 <= a ->
+  x <= a + u -> x / s <= a / b + / f.
+Proof.
+  intros Hs Hb Hf Hu Ha Hx; assert (P : 0 < s) by nra; apply Rle_div_l; [exact P |].
+  assert (/ f * (f * u) = u) by (field; lra); assert (a / b * b = a) by (field; lra).
+  assert (0 < / f) by (apply Rinv_0_lt_compat, Hf).
+  assert (0 <= a / b) by (apply Rmult_le_pos; [| left; apply Rinv_0_lt_compat]; assumption).
+  assert (/ f * (f * u + b) <= / f * s) by (apply Rmult_le_compat_l; lra).
+  assert (a / b * b <= a / b * s) by (apply Rmult_le_compat_l; nra).
+  nra.
 Qed.
 
 Lemma sign_of {x e : R} : 0 < x -> x = e -> 0 < e.
@@ -350,17 +363,39 @@ Ltac same_as_known :=
   | H : _ < _ |- _ => solve [same_inequality H]
   end.
 
-(** The goal by the order of [f a] and [f b], where e is the difference of its sides. *)
-Ltac ordered a b e :=
-  first
-  [ assert (tanh a <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
-  | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
-  | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra)
-  | match goal with H : forall r r', r < r' -> ?f r' < ?f r |- _ =>
-      assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
-        [lra | left; apply H; unfold Rdiv in *; lra]) end
-  | assert (tanh b <= tanh a) by (apply tanh_order; unfold Rdiv in *; lra) ];
-  rewrite ?tanh_opp in *; manifest e.
+(** The goal by the order of tanh, or of a law, at two places, where e is the difference of its
+    sides; or by that of tanh and an exponential. *)
+Ltac ordered e :=
+  match goal with
+  | |- context [exp _] => match goal with |- context [tanh ?a] =>
+      let Q := fresh in pose proof (share_below_exp a) as Q; manifest_by Q e end
+  | |- context [tanh ?a] => match goal with |- context [tanh ?b] => tryif constr_eq a b then fail else first
+      [ assert (tanh a <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+      | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
+      | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra) ];
+      rewrite ?tanh_opp in *; manifest e end
+  | H : forall r r', r < r' -> ?f r' < ?f r |- context [@phi _ ?a] =>
+      match goal with |- context [@phi _ ?b] => tryif constr_eq a b then fail else
+        assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
+          [lra | left; apply H; unfold Rdiv in *; lra]); manifest e end
+  end.
+
+(** State which quotients in the goal are positive. *)
+Ltac positive_quotients :=
+  repeat match goal with |- context [?a / ?b] => lazymatch goal with _ : 0 < a / b |- _ => fail
+    | _ => assert (0 < a / b) by positive end end.
+
+(** Quotients with one denominator, or with one that grows with a part of the numerator. *)
+Ltac fractions :=
+  lazymatch goal with
+  | |- _ / ?d <= _ / ?d => apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat; positive |]
+  | |- _ / _ <= _ / _ + / _ =>
+      eapply ratio_below; [eassumption | positive | positive | positive | positive |]
+  end;
+  positive_quotients; bounds; lra.
+
+(** An inequality, where e is the difference of its sides by factors. *)
+Ltac by_signs e := first [solve [arithmetic] | ordered e | manifest e | fractions | same_as_known].
 
 (** ** Limits of expressions, part by part *)
 
@@ -380,9 +415,133 @@ Ltac limit_of_parts :=
       [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
 
-(** A known limit L, one period later. *)
-Ltac one_period_later T L :=
-  generalize (later _ _ T L); apply tends_ext; intros t _; rewrite ?derive_later; first
-  [reflexivity | replace (2 * T + t) with (T + (T + t)) by ring; reflexivity].
+(** A limit that is known, of what diverges that of its reciprocal. *)
+Ltac known_limit F :=
+  let L := fresh in first [pose proof (tends_inv_diverges _ F) as L | pose proof F as L]; cbv beta in L.
+
+(** The same, and one period later. *)
+Ltac known_and_later T F :=
+  let L := fresh in first [pose proof (tends_inv_diverges _ F) as L | pose proof F as L];
+  let M := fresh in pose proof (later _ _ T L) as M; cbv beta in L, M.
+
+(** What a limit is called equals it, since limits are unique. *)
+Ltac by_name F :=
+  match goal with D : tends ?f ?n |- ?n = _ => apply (tends_unique f _ _ D) end;
+  eapply tends_value; [| generalize F; apply tends_ext; intros t Ht; first
+    [reflexivity | unfold Rdiv; f_equal; field; positive]]; identity.
+
+(** Two limits are equal, or a multiple of one is 0. *)
+Ltac same_limit :=
+  eexists; split; [eassumption | first [ring | eapply tends_value; [| eassumption]; identity]].
 
 Ltac limit := eapply tends_value; [| limit_of_parts]; identity.
+
+(** ** General theorems, their functions read off the goal and the facts *)
+
+(** A goal [s < x <-> e < F x], or the reverse, for a function F that is seen to increase. *)
+Ltac threshold_on D :=
+  match goal with |- ?s < ?x <-> ?e < ?l =>
+    match eval pattern x in l with ?F _ => apply (threshold D F x s e) end end;
+  cbv beta; solve [exact I | intros; increasing | positive | bounds; identity].
+
+(** Two inequalities: of a threshold, or each a multiple of the other. *)
+Ltac equivalent :=
+  let exceeds := first [threshold_on (fun x => 0 < x) | threshold_on (fun _ : R => True)] in
+  first [exceeds | apply iff_sym; exceeds | split; let Q := fresh in intro Q; first [arithmetic | from_inequality Q 1]].
+
+(** State the derivative of f at a before the goal, by Coquelicot. *)
+Ltac slope_of f a :=
+  let D := fresh in eassert (D : is_derive f a _) by
+    (auto_derive; [repeat split; first [positive | auto] | cbv beta; reflexivity]);
+  repeat match type of D with context [Derive (fun x => ?g x) ?b] =>
+    progress change (Derive (fun x => g x) b) with (Derive g b) in D end;
+  revert D.
+
+(** Take the derivative in the goal. *)
+Ltac differentiated :=
+  match goal with |- context [Derive (fun x => @?f x) ?a] =>
+    slope_of f a; let D := fresh in intro D; rewrite (is_derive_unique f a _ D); clear D end.
+
+(** The fact H states that [y' = c x']. *)
+Ltac integrated H :=
+  match type of (H 0 (Rle_refl 0)) with Derive ?y _ = ?e => match e with context [Derive ?x 0] =>
+    match eval pattern (Derive x 0) in e with ?F _ => rewrite (integrates y x (F 1)); cbv beta;
+      [insert; identity | assumption | assumption | intros s Hs; rewrite (H s Hs); identity | assumption]
+  end end end.
+
+(** Insert the first value of a field. *)
+Ltac at_start y Q := try match goal with H : y 0 = _ |- _ => rewrite H in Q end.
+
+(** The rate of y at a time after 0, by H, where the fact F gives the wear as a function of y under a
+    constant load; a times the slope of that function is p > 0. *)
+Ltac rate_by_inverse y g F H p a :=
+  match type of (F 0 (Rle_refl 0)) with ?u 0 = ?e => match eval pattern (y 0) in e with ?W _ =>
+    match type of H with 0 < ?t => slope_of W (y t); let D := fresh in intro D;
+      apply (fun E S => rate_of_inverse y u W g _ _ t ltac:(assumption) H E S D) end end end;
+  [ intros s Hs; rewrite (F s Hs);
+    try match goal with L : forall t, 0 <= t -> ?x t = ?x 0 |- _ => rewrite (L s Hs) end; reflexivity
+  | auto
+  | match goal with |- ?w <> 0 => let Z := fresh in intro Z; assert (0 < p) by positive;
+      assert (w * a = p) by (match type of H with 0 < ?t => given (F t (Rlt_le _ _ H)) end; insert; identity);
+      rewrite Z, Rmult_0_l in *; lra end
+  | cbv beta; identity ].
+
+(** What is affine in a field u, where the fact H states that [c t <= u]. *)
+Ltac diverges_by H :=
+  try (eapply diverges_ext; [intros; apply Rplus_comm | apply diverges_affine; [positive |]]);
+  match type of (H 1 Rle_0_1) with ?c <= _ => apply (diverges_above _ 0 c); [positive |] end;
+  intros t Ht; pose proof (H t Ht) as P0; same_inequality P0.
+
+(** What lies between two multiples of 1/s, by the fact H, where s diverges by the fact D. *)
+Ltac squeezed_by H D :=
+  match type of (H 0 (Rle_refl 0)) with context [_ <= ?B / _] => apply (squeezed _ _ B D) end;
+  intros t Ht; pose proof (H t (Rlt_le _ _ Ht)); unfold Rdiv in *; lra.
+
+(** A field that is bounded, part by part. *)
+Ltac bounded_by_parts :=
+  cbv beta; match goal with
+  | H : bounded ?f |- bounded ?f => exact H
+  | |- bounded (fun _ => ?c) => apply bounded_const
+  | |- bounded (fun t => @?f t + @?g t) => apply (bounded_plus f g); bounded_by_parts
+  | |- bounded (fun t => @?f t - @?g t) => apply (bounded_plus f (fun t => - g t)); bounded_by_parts
+  | |- bounded (fun t => - @?f t) => apply (bounded_opp f); bounded_by_parts
+  | |- bounded (fun t => @?f t * @?g t) => apply (bounded_mult f g); bounded_by_parts
+  | |- bounded (fun t => @?f t / @?g t) => apply (bounded_mult f (fun t => / g t)); bounded_by_parts
+  end.
+
+(** The drift that the fact H gives, with a load of which mean and period are known. *)
+Ltac drifts_by H :=
+  lazymatch goal with C : continuous_in_time ?U, M : ?m = RInt _ 0 ?T / ?T |- _ =>
+    lazymatch type of H with tends (fun t => t * (Derive ?u t - ?r) - @?A t) 0 =>
+      let e := eval cbv beta in (A 0) in lazymatch eval pattern (U 0) in e with ?a _ =>
+        apply (tends_value _ (a m)); [cbv beta; field; positive |];
+        apply (tends_ext (fun t => (u t - r * t) / ln (t / T)));
+          [intros t Ht; unfold Rdiv; f_equal; field; positive |];
+        apply (drift_by_mean u U a); first [assumption | exact H | intro; field; positive] end end end.
+
+(** An equation E about a field u is one about any value of it, if it is an identity. *)
+Ltac of_any_value u E :=
+  let P := type of (E 0 (Rle_refl 0)) in match eval pattern (u 0) in P with ?Q _ =>
+    let any := eval cbv beta in (forall x, Q x) in assert any by (intro; identity) end.
+
+(** A rate F(u, a), by the fact H, that rises with the bounded load a and is positive at its lower
+    bound, for all u where P holds. *)
+Ltac unbounded_where P H :=
+  let known x := try match goal with E : forall y : R, _ = _ |- _ => pose proof (E x) end in
+  match goal with B : forall t, 0 <= t -> Rabs (?a t) <= ?U |- diverges (fun t => ?u t) =>
+    match type of (H 0 (Rle_refl 0)) with _ = ?e => match eval pattern (u 0), (a 0) in e with ?F _ _ =>
+      apply (unbounded u a F (- U) P); [assumption | exact H | | auto | intros; lra + exact I | |];
+      [ intros t Ht; known (u t); specialize (B t Ht); apply Rabs_le_between in B;
+        try match goal with G : forall t, 0 <= t -> 0 <= u t |- _ => pose proof (G t Ht) end; nondecreasing
+      | intros x least; known x; arithmetic
+      | intros x least; known x; positive_sums; auto_derive; repeat split; positive ] end end end.
+
+Ltac unbounded_by H := first [unbounded_where (fun x => 0 <= x) H | unbounded_where (fun _ : R => True) H].
+
+(** The change of tanh between two arguments: not negative, and at most that of the arguments. *)
+Ltac increase_of_tanh :=
+  match goal with |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
+    tryif constr_eq a b then fail else
+      let D := fresh in assert (D : a <= b) by (apply Rminus_le_0; ring_simplify; positive);
+      pose proof (tanh_order _ _ D); pose proof (tanh_slope _ _ D) end end;
+  split; nra.
