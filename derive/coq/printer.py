@@ -104,10 +104,10 @@ class _CoqPrinter(StrPrinter):
             return f"Rpower {_inner(base)} {_inner(exponent)}"
         if exponent < 0:
             return f"(/ {_inner(1 / expr)})"
-        power = exponent if exponent.is_Integer else 2 * exponent
         if exponent.is_Integer:
-            return f"{_inner(base)}^{power}"
-        return f"sqrt {_inner(base)}" if power == 1 else f"(sqrt {_inner(base)})^{power}"
+            return f"{_inner(base)}^{exponent}"
+        root = f"sqrt {_inner(base)}"
+        return root if 2 * exponent == 1 else f"({root})^{2 * exponent}"
 
     def _print_Function(self, expr: sp.Function) -> str:
         if expr.func == landau_o:

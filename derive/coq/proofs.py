@@ -53,19 +53,16 @@ def _equation(step: Step) -> str:
     if not equations:
         return "equal"
     first, *others = equations
-    factor = _factor(step, first.relation)
-    tactic = "by_equation" if factor is None else f"multiple ({term(factor)})"
+    slope = _slope(first.relation, step.relation.lhs)
+    tactic = f"multiple ({term(1 / slope)})" if slope else "by_equation"
     return f"{stated(others)}{tactic} ({first.at()})"
 
 
-def _factor(step: Step, given: sp.Equality) -> sp.Expr | None:
-    """Return c for a claim that is c times an equation, if its left side gives c."""
-    name, dummy = step.relation.lhs, sp.Dummy()
+def _slope(given: sp.Equality, name: sp.Expr) -> sp.Expr:
+    """Return the coefficient of a name in an equation that is linear in it, 0 if it is not."""
+    dummy = sp.Dummy()
     slope = sp.diff((given.lhs - given.rhs).xreplace({name: dummy}), dummy)
-    if isinstance(name, _NAMES) and slope != 0 and not slope.has(dummy):
-        return 1 / slope
-    factor = sp.cancel(name / given.lhs) if given.lhs != 0 else sp.S.One
-    return factor if step.relation.rhs == factor * given.rhs else None
+    return slope if isinstance(name, _NAMES) and not slope.has(dummy) else sp.S.Zero
 
 
 def _inserted(goal: Claim, equations: Iterable[sp.Basic]) -> Claim:

@@ -110,11 +110,10 @@ class Step:
         They are the given ones and the equations among the hypotheses that no parent has; or all,
         where a parent cannot be cited.
         """
-        if all(map(self.usable, self.parents)):
-            old = {self.labels.get(p) for parent in self.parents for p in parent.labels}
-            facts = [*self.given, *(h for h in self.hypotheses if h.equates and h.proof not in old)]
-        else:
-            facts = [*self.ancestors, *(h for h in self.hypotheses if h.equates)]
+        cited = all(map(self.usable, self.parents))
+        old = {self.labels.get(p) for parent in self.parents for p in parent.labels if cited}
+        own = (h for h in self.hypotheses if h.equates and h.proof not in old)
+        facts = (*(self.given if cited else self.ancestors), *own)
         now = (f for f in facts if self.timed or not f.timed)
         return [f for f in dict.fromkeys(now) if not f.relation.has(sp.Limit)]
 

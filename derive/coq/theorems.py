@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
@@ -27,12 +27,6 @@ if TYPE_CHECKING:
 
 LOAD, WEAR, SUPPORT = map(symbol, ("U_a", "u_c", "U_c"))
 RATIO = sp.Symbol("ratio", real=True)
-
-
-def integral(step: Step) -> sp.Integral:
-    """Return the integral up to a field, of the claim or of what it rests on."""
-    equation = step.relation if step.rule == "Separate" else step.given[0].relation
-    return equation.atoms(sp.Integral).pop()
 
 
 def rate_of(y: sp.Expr, step: Step) -> Fact | None:
@@ -76,15 +70,11 @@ def at_infinity(inside: sp.Expr, u: sp.Expr) -> tuple[sp.Expr, ...]:
 
 def proof(step: Step) -> str:
     """Return a proof by a general theorem, empty where there is none for the step."""
-    macro = getattr(_macros(), step.rule, None)
+    macro = getattr(template("theorems").module, step.rule, None)
     return "" if macro is None else str(macro(step))
 
 
 @cache
-def _macros() -> Any:
-    return template("theorems").module
-
-
 def template(name: str) -> Template:
     """Return a template of proofs; Jinja2 is imported when the first one is written."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -96,7 +86,7 @@ def template(name: str) -> Template:
         keep_trailing_newline=True,
         undefined=StrictUndefined,
     )
-    words = (always, at_infinity, in_terms_of, integral, proposition, quantity, rate_of)
+    words = (always, at_infinity, in_terms_of, proposition, quantity, rate_of)
     known = {each.__name__: each for each in (*words, slope_of_wear, stated, term, vanishing)}
     environment.filters |= known
     environment.globals |= known | {"t": t, "LOAD": LOAD, "WEAR": WEAR, "RATIO": RATIO}

@@ -304,8 +304,10 @@ Ltac multiple c F :=
   let by_factor k := apply (multiple_of k _ _ _ _ P); insert; identity in
   first [by_factor c | by_factor 1 | by_factor (-1)].
 
-(** The sides of the goal are equal where the equation F and others are inserted, or it is F. *)
-Ltac by_equation F := first [given F; insert; equal | multiple 1 F].
+(** The sides of the goal are equal where the equation F and others are inserted, or it is F, or F
+    is inserted in one side. *)
+Ltac by_equation F := first [given F; insert; equal | multiple 1 F
+  | match goal with |- _ = ?b => let B := fresh in remember b as B; rewrite F; subst B; identity end].
 
 (** ** Inequalities *)
 
