@@ -62,6 +62,8 @@ def _of_model(hypotheses: tuple[Hypothesis, ...]) -> str | None:
         return "h(0) = h_0, and more is said of h: two equations of the model"
     equalities = [h for h in hypotheses if isinstance(h.relation, sp.Equality)]
     given = [subject(h.relation) for h in equalities if h.kind is Kind.MODEL]
+    if len({law for h in equalities if (law := _contact_law(h.relation)) is not None}) > 1:
+        return "two contact laws"
     if (
         len(set(given)) < len(given)
         or contradictory(_at_times(hypotheses))
@@ -69,6 +71,14 @@ def _of_model(hypotheses: tuple[Hypothesis, ...]) -> str | None:
     ):
         return "the hypotheses contradict each other"
     return None
+
+
+def _contact_law(relation: sp.Equality) -> sp.Expr | None:
+    """Return the pressure in contact by a contact law, None for any other equation."""
+    law = relation.rhs
+    if relation.lhs != _PRESSURE or not all(law.has(symbol(each).func) for each in ("h", "sigma")):
+        return None
+    return law.args[0].expr if isinstance(law, sp.Piecewise) else law
 
 
 def _at_times(hypotheses: tuple[Hypothesis, ...]) -> frozenset[sp.Basic]:

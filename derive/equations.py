@@ -29,6 +29,7 @@ from .hypotheses import Hypothesis, Kind
 from .kernel import Judgement, chain, step_key
 from .language import defined_by, names
 from .laws import written_out
+from .parts import bound_in
 from .rules.assumption import Assume
 from .symbols import DATA, QUANTITIES
 from .typeset.display import latex
@@ -180,13 +181,19 @@ class Equation:
     def conditions(self) -> tuple[Hypothesis, ...]:
         """Return the conditions that a reader needs beside the equation, in its own names.
 
-        A setting that the equation itself states is there by name alone.
+        A setting that the equation itself states is there by name alone; what is only assumed is
+        no condition of itself.
         """
         defined = (h.relation for h in self._naming if isinstance(h.relation, sp.Equality))
         names = [relation for relation in defined if relation.lhs in self.relation.free_symbols]
-        beside = [h for h in self.hypotheses if h.is_setting or h.relation not in self.claims]
+        own = self.claims if self._assumed else ()
+        beside = [h for h in self.hypotheses if h.is_setting or h.relation not in own]
         shown = (h.relation for h in beside if h.shown)
         return (*(Hypothesis(abbreviated(relation, names)) for relation in shown), *self._signs)
+
+    @property
+    def _assumed(self) -> bool:
+        return all(isinstance(statement.rule, Assume) for statement in self.statements)
 
     @property
     def _signs(self) -> tuple[Hypothesis, ...]:
@@ -225,9 +232,15 @@ class Equation:
 
     @cached_property
     def typeset_agrees(self) -> bool:
-        """Return whether the typeset form equals the claims and abbreviates by no name of data."""
-        short = {name for abbreviation in self.where for name, _ in names(abbreviation.lhs)}
-        return short.isdisjoint(DATA) and _agree(self.shown_in_full, self.claims)
+        """Return whether the typeset form equals the claims and abbreviates by new names alone."""
+        said = _names(self.claims) | DATA
+        short = (abbreviation.lhs for abbreviation in self.where)
+        new = all(
+            isinstance(name, (sp.Symbol, AppliedUndef))
+            and str(name.func if name.args else name) not in said
+            for name in short
+        )
+        return new and _agree(self.shown_in_full, self.claims)
 
     @property
     def shown_in_full(self) -> tuple[sp.Basic, ...]:
@@ -239,7 +252,7 @@ class Equation:
         """Return the machine's verdict on the equation as printed."""
         if not self.agrees:
             return Status.CORRECTED
-        if all(isinstance(s.rule, Assume) for s in self.statements):
+        if self._assumed:
             return Status.DEFINITION
         return Status.DERIVED
 
@@ -288,7 +301,9 @@ def _replaced(expr: sp.Expr, short: sp.Eq) -> sp.Expr:
 
 def abbreviated(relation: sp.Basic, names: Iterable[sp.Equality]) -> sp.Basic:
     """Return a relation with names in place of the expressions that they abbreviate."""
-    short = {evaluated(name.rhs): name.lhs for name in names if name.rhs.args}
+    bound = bound_in(relation)
+    free = (name for name in names if name.rhs.args and bound.isdisjoint(name.rhs.free_symbols))
+    short = {evaluated(name.rhs): name.lhs for name in free}
     if not any(relation.has(value) for value in short):
         return relation
     return claim_of(relation).map(lambda side: side.xreplace(short)).relation

@@ -260,10 +260,21 @@ def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
     _require_language(made.claim.relation, *hypotheses)
+    for premise in filter(_has_slope_over_data, premises):
+        if any(h.kind is not Kind.DEFINITION for h in {*hypotheses} - {*premise.hypotheses}):
+            raise RuleError(f"missing premise: {premise.relation} under further conditions")
     joined = not any({*hypotheses} <= {*premise.hypotheses} for premise in premises)
     if joined and (contradiction := inconsistency(hypotheses)):
         raise RuleError(contradiction)
     return hypotheses, made.claim
+
+
+def _has_slope_over_data(premise: Judgement) -> bool:
+    """Return whether a claim has the derivative of a name by a datum.
+
+    As the datum varies, the hypotheses hold on; under others the derivative may be another one.
+    """
+    return any(d.expr.is_Symbol for d in premise.relation.atoms(sp.Derivative))
 
 
 def _require_language(*parts: object) -> None:

@@ -131,6 +131,14 @@ def counterexample_without(
     return found or next(filter(None, left), None)
 
 
+def is_open_without(judgement: Judgement, dropped: Hypothesis, seed: int) -> bool:
+    """Return whether the model from a seed satisfies all other hypotheses without a verdict on the
+    claim: a trend that is barely clear on one machine may not be so on one that rounds otherwise.
+    """
+    found = falsify(_relations(judgement), _decidable(judgement.claim), [seed], 1, dropped.relation)
+    return found.passed and found.models > found.decided == 0
+
+
 def _domains(relations: Relations) -> list[Relational]:
     """Return the domains of quantities whose value or rate is the left side of an equation."""
     sides = {h.lhs for h in relations if isinstance(h, sp.Eq) and not h.rhs.is_number}

@@ -156,28 +156,21 @@ def _solved(relation: sp.Equality) -> tuple[sp.Symbol, sp.Expr, sp.Expr] | None:
 
 
 def _solvable(relation: sp.Equality) -> sp.Tuple | None:
-    """Return the sides of an equation of new fields that determines one of them for all data and
-    others, else None.
+    """Return the sides of an equation that determines one new field for all data and others, else
+    None.
 
-    The unknowns are the fields that it defines; each is replaced by a variable.  The equation must
-    be linear in them, and one unknown, of any sign, has a factor that is never zero and occurs in
-    it once.
+    The equation must be linear in the field, which is of any sign and occurs in it at one time,
+    with a factor that is never zero.  In what is returned a variable stands for it.
     """
-    sides = sp.Tuple(*relation.args)
-    unknowns = [*_new_fields(sides, relation)]
-    own = {unknown: sp.Dummy(real=True) for unknown in unknowns}
-    found = coefficients(relation.lhs - relation.rhs, *unknowns)
-    if not unknowns or found is None or _is_bound(sides, relation):
+    sides, unknowns = sp.Tuple(*relation.args), _new_fields(relation, relation)
+    if len(unknowns) != 1 or _is_bound(sides, relation):
         return None
-    heads = [unknown.func for unknown in unknowns]
-    solved = any(
-        holds(nonzero(slope))
-        and not unknown.is_nonnegative
-        and heads.count(unknown.func) == 1
-        and unknown.args in _AT_EVERY_TIME
-        for unknown, slope in zip(unknowns, found[:-1], strict=True)
-    )
-    return sides.xreplace(own) if solved else None
+    (unknown,) = unknowns
+    parts = coefficients(relation.lhs - relation.rhs, unknown)
+    if not parts or not holds(nonzero(parts[0])):
+        return None
+    free = unknown.args in _AT_EVERY_TIME and not unknown.is_nonnegative
+    return sides.xreplace({unknown: sp.Dummy(real=True)}) if free else None
 
 
 def _new_fields(expr: sp.Basic, relation: sp.Equality) -> set[sp.Expr]:

@@ -57,10 +57,7 @@ def _require_free(parameter: sp.Symbol, expr: sp.Expr, *premises: Judgement) -> 
             fixed = about and not named and not _is_open(relation, definitions)
         if fixed:
             raise RuleError(f"missing premise: {parameter} may vary, but {hypothesis.text}")
-    said = frozenset(h.relation for h in hypotheses)
-    if len([*filter(_is_law_at_every_closure, said)]) > 1:
-        raise RuleError(f"missing premise: {parameter} may vary, but there are two contact laws")
-    _require_roughness(said)
+    _require_roughness(frozenset(h.relation for h in hypotheses))
 
 
 def _require_roughness(said: frozenset[sp.Basic]) -> None:

@@ -10,10 +10,11 @@ import sympy as sp
 
 from derive.check import step_checks
 from derive.claims import Equality, Inequality
-from derive.equations import Equation
+from derive.equations import Equation, abbreviated
 from derive.hypotheses import PERIODIC, ROUGHENING, Hypothesis, Kind
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, chain, infer, replay_fault
-from derive.note.model import CLOSURE
+from derive.laws import EXPONENTIAL, GENERAL, TANH
+from derive.note.model import CLOSURE, at_every_closure
 from derive.rules.algebra import Insert, substitute
 from derive.rules.assumption import Assume, assume, defined
 from derive.rules.calculus import rigid
@@ -23,7 +24,7 @@ from derive.rules.limits import Passes
 from derive.symbols import rate, symbols, t
 from derive.time_limit import TimeLimitError, time_limit
 from derive.verification import verification_of
-from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, supposed, tends
+from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, sloped, supposed, tends
 from tests.derive.test_language import Positive
 
 h, f_c, h_0, q, L, C, G, U_a, u_c = symbols("h f_c h_0 q L C G U_a u_c")
@@ -300,10 +301,10 @@ def test_limits_that_do_not_contradict_hypotheses(known: tuple[Judgement, ...]) 
 
 
 def test_a_hypothesis_that_is_changed_in_place_is_found() -> None:
-    known = gt(f_c, 0)
+    known = gt(f_c, 3)
     object.__setattr__(known.hypotheses[0], "kind", Kind.INITIAL)
     with pytest.raises(RuleError, match="nobody changed"):
-        Arithmetic(sp.Gt(f_c + 1, 1))(known)
+        Arithmetic(sp.Gt(f_c + 1, 4))(known)
 
 
 def test_signs_of_names_of_ones_own_are_shown() -> None:
@@ -323,3 +324,32 @@ def test_the_other_sign_of_the_closure_is_shown() -> None:
     other, printed = (assume(Hypothesis(CLOSURE[opens], Kind.MODEL)) for opens in (True, False))
     assert [shown.text for shown in other.conditions] == ["wear of the pin opens the gap"]
     assert printed.conditions == ()
+
+
+def test_two_contact_laws_are_refused() -> None:
+    """Both would be shown as "no loss of contact"; they may agree at one closure."""
+    laws = (assume(Hypothesis(at_every_closure(law))) for law in (TANH, GENERAL))
+    with pytest.raises(RuleError, match="two contact laws"):
+        Arithmetic(sp.Gt(L, -L, evaluate=False))(*laws)
+
+
+def test_slopes_under_two_laws_are_not_compared() -> None:
+    """As f_c varies, p_inf is another function of it under another law."""
+    slopes = [sloped(assume(Hypothesis(at_every_closure(law)))) for law in (TANH, EXPONENTIAL)]
+    with pytest.raises(RuleError, match="further conditions"):
+        Arithmetic(sp.Gt(L, -L, evaluate=False))(*slopes)
+
+
+def test_an_equation_shows_a_condition_that_it_repeats() -> None:
+    known = eq(u_c, h_0)
+    bound = Arithmetic(sp.Ge(u_c, h_0 / 2))(known)
+    assert [h.relation for h in Equation("x", "", "", (known, bound)).conditions] == [
+        known.relation
+    ]
+    assert Equation("x", "", "", (known,)).conditions == ()
+
+
+def test_an_abbreviation_does_not_capture_a_bound_variable() -> None:
+    name, u_s = sp.Symbol("n_1", real=True), symbols("u_s")[0]
+    relation = equal(h_0, sp.Integral(2 * u_s / L, (u_s, 0, L)))
+    assert abbreviated(relation, [sp.Eq(name, 2 * u_s / L)]) == relation

@@ -49,6 +49,7 @@ from tests.derive.judgements import (
     lt,
     ne,
     opened,
+    sloped,
     supposed,
     times,
 )
@@ -357,14 +358,15 @@ FAMILIES = (
         # the wear may be infinite in finite time, if the pin wears faster than the bearing
         "wear of the pin": ("may vary", equal(SLOPE, h_0),
             beside(said(ARCHARD[0], Kind.MODEL))),
-        "two contact laws": ("two contact laws", equal(SLOPE, h_0),
-            beside(eq(p, p_max * sp.exp(-h / sigma)), eq(p, p_max / (1 + sp.exp(h / sigma))))),
         "a pressure that is a roughness": ("may vary", equal(SLOPE, h_0),
             beside(eq(p, p_max * sp.sqrt(h / sigma)))),
     }),
     Family(lambda slope, *known: Arithmetic(sp.Ge(slope, 0, evaluate=False))(*known), (
         (C * f_c, ROUGHENS),
     ), {
+        # p_inf as a function of f_c has another slope under another law
+        "a slope and a value of the datum": ("further conditions", SLOPE - f_c, sloped(),
+            eq(f_c, h_0)),
         "the slope of a root": ("Ne|> 0", sp.diff(sp.sqrt(h_0), h_0)),
     }),
     # ---- inequalities
