@@ -16,7 +16,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -128,14 +128,14 @@ class Export:
         """Return the exported files by name, each after those that it needs."""
         home = {name: group for group, names in self.groups.items() for name in names}
         files = {"World": self.world}
-        for group, names in self.groups.items():
-            text = "\n".join(self.lemmas[name] for name in names)
-            cited = {home[name] for name in re.findall(r"step_\w+", text)} - {group}
-            files[group] = _importing(("World", *(g for g in self.groups if g in cited))) + text
+        groups = {g: "\n".join(self.lemmas[n] for n in names) for g, names in self.groups.items()}
         if refuting := self.refuting:
-            homes = dict.fromkeys(home[step.name] for step in refuting.values())
-            head = "From Interval Require Import Tactic.\n" + _importing(("World", *homes))
-            files["Refutations"] = head + refutations.text(refuting)
+            groups["Refutations"] = refutations.text(refuting)
+        for group, text in groups.items():
+            cited = {home[name] for name in re.findall(r"step_\w+", text)} - {group}
+            needed = " ".join(("World", *(g for g in groups if g in cited)))
+            head = f"{HEAD}From Wear Require Import {needed}.\n"
+            files[group] = f"{head}Open Scope R_scope.\n\n{text}"
         proved = re.findall(r"^Lemma (\w+)", "".join(files.values()), re.MULTILINE)
         everything = ", ".join(f"@{name}" for name in proved) or "I"
         files["Assumptions"] = (
@@ -167,16 +167,9 @@ class Export:
         write_all(folder, texts)
 
 
-def _importing(files: Iterable[str]) -> str:
-    """Return the first lines of a file, which import other files."""
-    return f"{HEAD}From Wear Require Import {' '.join(files)}.\nOpen Scope R_scope.\n\n"
-
-
-def ran(folder: Path, *command: str, said: str = "") -> subprocess.CompletedProcess[str]:
+def ran(folder: Path, *argv: str, said: str = "") -> subprocess.CompletedProcess[str]:
     """Run a program in a folder, with something said to it."""
-    return subprocess.run(
-        command, cwd=folder, input=said, capture_output=True, text=True, check=False
-    )
+    return subprocess.run(argv, cwd=folder, input=said, capture_output=True, text=True, check=False)
 
 
 def compile_faults(folder: Path, targets: Sequence[str] = (), jobs: int = 2) -> str:

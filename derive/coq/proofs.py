@@ -125,8 +125,8 @@ def _passes(step: Step, inside: sp.Expr) -> list[str]:
     equations = [f for f in step.given if f.equates and f.timed]
     for equation in equations:
         inside = inside.subs(*equation.relation.args)
-    lines = [f"apply (tends_ext (fun t => {_composed(step, inside)})).", "{ intros t Ht."]
-    lines += [step.signs()]
+    start = f"apply (tends_ext (fun t => {_composed(step, inside)})).\n{{ intros t Ht."
+    lines = [start, step.signs()]
     if inside.has(t + _T):
         lines += ["assert (HT : 0 <= T + t) by lra.", step.signs("(T + t)", "HT")]
     return [*lines, f"{stated(equations)}insert; rewrite ?derive_later; identity. }}", "limit."]
@@ -144,10 +144,8 @@ def _composed(step: Step, inside: sp.Expr) -> str:
         part, form = (1 / name, "/ ({})") if value == sp.oo else (name, "{}")
         replaced = in_terms_of(inside, quantity if time == "t" else later(quantity), part)
         if replaced.has(name):
-            inside, arguments[name] = (
-                replaced,
-                f"((fun t => {form.format(term(quantity))}) ({time}))",
-            )
+            inside = replaced
+            arguments[name] = f"((fun t => {form.format(term(quantity))}) ({time}))"
     if not arguments:
         return term(step.limits[0].relation.lhs.args[0] if step.limits else inside)
     return f"(fun {' '.join(map(str, arguments))} => {term(inside)}) {' '.join(arguments.values())}"

@@ -39,7 +39,7 @@ RELATIONS = (_EQ_16B, _EQ_19, _EQ_21, _TOTAL, *map(read, _AT_REST))
 
 def text(steps: Mapping[str, Step]) -> str:
     """Return the lemmas; ``steps`` are those of the equations in NEEDS."""
-    return template("refutations").render(
+    return "From Interval Require Import Tactic.\n\n" + template("refutations").render(
         drift=steps["19"].parents[0],
         rate=steps["18"],
         ratio=steps["closure-ratio"],

@@ -92,9 +92,8 @@ def statement(judgement: Judgement) -> Statement:
     for field in sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)}):
         premises.append(Fact(f"smooth_{field}", f"forall t, 0 <= t -> ex_derive {field} t"))
     stated = Statement(_distinct(premises), printer.always(said))
-    if re.search(r"\bphi\b", stated.text):
-        return replace(stated, premises=(*stated.premises, *_LAW))
-    return stated
+    law = _LAW if re.search(r"\bphi\b", stated.text) else ()
+    return replace(stated, premises=(*stated.premises, *law))
 
 
 def _clocks(judgement: Judgement) -> dict[sp.Basic, sp.Expr]:
