@@ -21,9 +21,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.relational import _Inequality as Inequality
-from sympy.logic.boolalg import BooleanTrue
 
-from ..claims import Predicate
 from ..kernel import Judgement
 from .printer import timed
 from .statements import Fact, Statement, claim, key, statement
@@ -83,12 +81,6 @@ class Step:
         return Fact(proof, other.statement.conclusion, other.relation)
 
     @cached_property
-    def hypotheses(self) -> list[Fact]:
-        """Return the premises that have a relation."""
-        none = (BooleanTrue, Predicate)
-        return [p for p in self.statement.premises if not isinstance(p.relation, none)]
-
-    @cached_property
     def given(self) -> list[Fact]:
         """Return the facts from which the claim follows: the parents that can be cited."""
         return list(dict.fromkeys(self.fact(p) for p in self.parents if self.usable(p)))
@@ -112,7 +104,7 @@ class Step:
         """
         cited = all(map(self.usable, self.parents))
         old = {self.labels.get(p) for parent in self.parents for p in parent.labels if cited}
-        own = (h for h in self.hypotheses if h.equates and h.proof not in old)
+        own = (h for h in self.statement.premises if h.equates and h.proof not in old)
         facts = (*(self.given if cited else self.ancestors), *own)
         now = (f for f in facts if self.timed or not f.timed)
         return [f for f in dict.fromkeys(now) if not f.relation.has(sp.Limit)]
@@ -128,14 +120,14 @@ class Step:
         They come from inequalities, and from names that are positive and equal an expression.
         """
         lines = []
-        positive = {f.relation.args: f for f in self.hypotheses if isinstance(f.relation, sp.Gt)}
-        for fact in (f for f in (*self.hypotheses, *self.ancestors) if time or not f.timed):
-            known, name = fact.at(time, instant), fact.relation.args[:1]
+        given = self.statement.premises
+        positive = {p.relation.args for p in given if isinstance(p.relation, sp.Gt)}
+        for fact in (f for f in (*given, *self.ancestors) if time or not f.timed):
+            known = fact.at(time, instant)
             if isinstance(fact.relation, (Inequality, sp.Ne, sp.And, sp.Equivalent)):
                 lines.append(f"given ({known}).")
-            elif fact.equates and (*name, 0) in positive:
-                sign = positive[(*name, sp.S.Zero)].at(time, instant)
-                lines.append(f"pose proof (sign_of ({sign}) ({known})).")
+            elif fact.equates and (fact.relation.lhs, 0) in positive:
+                lines.append(f"pose proof (sign_of ({known}) ltac:(auto with real)).")
         return "\n".join(dict.fromkeys(lines))
 
 

@@ -27,9 +27,9 @@ Lemma at_infinity (u a A B f : R -> R) (l : R) : diverges u ->
 Proof.
   intros Hu Ha HA A0 HB B0 Hf; pose proof (tends_inv_diverges _ Hu) as Z.
   destruct (chord A 0 l HA) as [G [HG [G0 E]]].
-  pose proof (passes _ B 0 Z HB) as V; rewrite B0 in V.
-  pose proof (passes _ G 0 Z HG) as W; rewrite G0 in W.
-  pose proof (tends_plus _ _ _ _ W (bounded_vanishes a _ Ha V)) as P.
+  pose proof (is_lim_comp_continuous _ B p_infty 0 Z HB) as V; rewrite B0 in V.
+  pose proof (is_lim_comp_continuous _ G p_infty 0 Z HG) as W; rewrite G0 in W.
+  pose proof (is_lim_plus' _ _ _ _ _ W (bounded_vanishes a _ Ha V)) as P.
   rewrite Rplus_0_r in P; revert P; apply is_lim_ext_loc.
   destruct (proj1 (diverges_iff u) Hu 0) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
   pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0); assert (0 < u t) by (apply H; lra).
@@ -45,13 +45,13 @@ Lemma first_order (u q a F : R -> R) (l d r : R) :
   tends (fun t => t * (Derive u t - r) - d / r * a t) 0.
 Proof.
   intros Hu Hr Hd Hl Hr0 Ha Hq Hr' He; destruct (chord F l d Hd) as [G [HG [Gl E]]].
-  pose proof (passes q G l Hq HG) as HGq; rewrite Gl in HGq.
+  pose proof (is_lim_comp_continuous q G p_infty l Hq HG) as HGq; rewrite Gl in HGq.
   pose proof (tends_inv _ _ Hr0 (cesaro u r Hu Hr')) as Hut.
   pose proof (tends_mult _ _ _ _ Hut HGq) as Hp.
-  pose proof (tends_minus _ _ _ _ Hp (tends_const (/ r * d))) as Hz; rewrite Rminus_eq_0 in Hz.
+  pose proof (is_lim_minus' _ _ _ _ _ Hp (is_lim_const (/ r * d) _)) as Hz; rewrite Rminus_eq_0 in Hz.
   pose proof (bounded_vanishes a _ Ha Hz) as Hz'.
   pose proof (tends_mult _ _ _ _ Hp He) as Hw; rewrite Rmult_0_r in Hw.
-  pose proof (tends_plus _ _ _ _ Hz' Hw) as H; rewrite Rplus_0_r in H; revert H.
+  pose proof (is_lim_plus' _ _ _ _ _ Hz' Hw) as H; rewrite Rplus_0_r in H; revert H.
   assert (N : exists t0, forall t, t0 < t -> u t / t <> 0).
   { pose proof (cesaro u r Hu Hr') as C; rewrite tends_iff in C.
     destruct (C (Rabs r) (Rabs_pos_lt _ Hr0)) as [t0 Ht0]; exists t0; intros t Ht Z.
@@ -65,24 +65,33 @@ Qed.
 
 (** ** The logarithm *)
 
-(** Cesaro on the logarithmic scale: [t v' -> m] gives [v / ln t -> m]. *)
-Lemma logarithmic (v : R -> R) m : (forall t, 1 <= t -> ex_derive v t) ->
-  tends (fun t => t * Derive v t) m -> tends (fun t => v t / ln t) m.
+Lemma logarithm_diverges T : 0 < T -> diverges (fun t => ln (t / T)).
 Proof.
-  intros Hv H; set (w := fun s => v (exp s)).
-  assert (Hw : forall s, 0 <= s -> is_derive w s (exp s * Derive v (exp s))).
-  { intros s Hs; unfold w; apply (is_derive_comp v exp s); [| apply is_derive_exp].
-    apply Derive_correct, Hv; rewrite <- exp_0; destruct Hs as [Hs | <-];
-      [left; apply exp_increasing; assumption | right; reflexivity]. }
+  intros HT; apply (is_lim_comp ln (fun t => t / T) p_infty p_infty p_infty is_lim_ln_p).
+  - apply (tends_ext (fun t => 0 + / T * t)); [intros; field; lra |].
+    apply diverges_affine; [apply Rinv_0_lt_compat; lra | apply is_lim_id].
+  - exists 0; intros; discriminate.
+Qed.
+
+(** Cesaro on the logarithmic scale: [t v' -> m] gives [v / ln (t/T) -> m]. *)
+Lemma logarithmic (v : R -> R) m T : 0 < T -> (forall t, 0 < t -> ex_derive v t) ->
+  tends (fun t => t * Derive v t) m -> tends (fun t => v t / ln (t / T)) m.
+Proof.
+  intros HT Hv H; set (e := fun s => 0 + T * exp s); set (w := fun s => v (e s)).
+  assert (Hw : forall s, is_derive w s (e s * Derive v (e s))).
+  { intros s; apply (is_derive_comp v e s); [| unfold e; auto_derive; trivial; ring].
+    apply Derive_correct, Hv; pose proof (exp_pos s); unfold e; nra. }
   assert (Hl : tends (fun s => w s / s) m).
-  { apply cesaro; [intros s Hs; eexists; apply Hw, Hs |].
-    apply tends_ext with (f := fun s => exp s * Derive v (exp s)).
-    { intros s Hs; symmetry; apply is_derive_unique, Hw, Hs. }
-    apply (is_lim_comp (fun t => t * Derive v t) exp p_infty m p_infty H is_lim_exp_p).
-    exists 0; intros; discriminate. }
-  pose proof (is_lim_comp _ ln p_infty m p_infty Hl is_lim_ln_p) as HC.
+  { apply cesaro; [intros s _; eexists; apply Hw |].
+    apply tends_ext with (f := fun s => e s * Derive v (e s)).
+    { intros s _; symmetry; apply is_derive_unique, Hw. }
+    apply (is_lim_comp (fun t => t * Derive v t) e p_infty m p_infty H).
+    - apply diverges_affine; [assumption | apply is_lim_exp_p].
+    - exists 0; intros; discriminate. }
+  pose proof (is_lim_comp _ _ p_infty m p_infty Hl (logarithm_diverges T HT)) as HC.
   eapply is_lim_ext_loc; [| apply HC; exists 0; intros; discriminate].
-  exists 1; intros t Ht; unfold w; rewrite exp_ln by lra; reflexivity.
+  exists 0; intros t Ht; unfold w, e; rewrite exp_ln by (apply Rdiv_lt_0_compat; assumption).
+  do 2 f_equal; field; lra.
 Qed.
 
 (** A periodic, continuous function is bounded. *)
@@ -129,70 +138,43 @@ Proof.
   - exists B; exact HB.
 Qed.
 
-(** [t (u' - r) - c0 - c1 U -> 0] with periodic, continuous U of mean m:
-    [(u - r t) / ln (t/T) -> c0 + c1 m]. *)
-Lemma logarithmic_drift (u U : R -> R) (r c0 c1 m T : R) : 0 < T ->
-  (forall t, 0 <= t -> ex_derive u t) -> continuous_in_time U ->
-  (forall t, 0 <= t -> U (T + t) = U t) -> RInt U 0 T = m * T ->
-  tends (fun t => t * (Derive u t - r) - (c0 + c1 * U t)) 0 ->
-  tends (fun t => (u t - r * t) / ln (t / T)) (c0 + c1 * m).
-Proof.
-  intros HT Hu Hc Hp Hm H; set (b := fun t => U (Rabs t) - m); set (A := fun t => RInt b 0 t).
-  assert (Hb : forall t, continuous b t).
-  { intros t; apply (continuous_minus (fun t => U (Rabs t))); [apply Hc | apply continuous_const]. }
-  destruct (periodic_integral b T) as [B HB]; trivial.
-  { intros t Ht; unfold b; rewrite !Rabs_pos_eq, Hp by lra; trivial. }
-  { unfold b; rewrite (RInt_minus (fun t => U (Rabs t)) (fun _ => m)), RInt_const, (RInt_ext _ U), Hm.
-    - unfold minus, plus, opp, scal; simpl; unfold mult; simpl; ring.
-    - intros x Hx; rewrite Rmin_left in Hx by lra; rewrite Rabs_pos_eq; lra.
-    - apply (integrable (fun t => U (Rabs t))), Hc.
-    - apply ex_RInt_const. }
-  assert (HA : forall t, is_derive A t (b t)) by (intros; apply derive_integral, Hb).
-  assert (Hq : tends (fun t => A t / t) 0).
-  { apply squeezed with (s := fun t => t) (B := B); [apply is_lim_id |]; intros t Ht.
-    assert (P : 0 < / t) by (apply Rinv_0_lt_compat, Ht).
-    pose proof (HB t (Rlt_le _ _ Ht)) as Q; apply Rabs_le_between in Q; fold (A t) in Q.
-    unfold Rdiv; nra. }
-  apply (tends_scal c1) in Hq; rewrite Rmult_0_r in Hq.
-  set (v := fun t => u t - r * t - c1 * (A t / t)).
-  assert (Hv : forall t, 0 < t ->
-    is_derive v t (Derive u t - r - c1 * ((b t * t - A t) / t ^ 2))).
-  { intros t Ht; apply (is_derive_minus (fun t => u t - r * t) (fun t => c1 * (A t / t))).
-    - apply (is_derive_minus u (fun t => r * t)); [apply Derive_correct, Hu; lra |].
-      auto_derive; [trivial | ring].
-    - apply is_derive_scal; evar_last;
-        [apply (is_derive_div A (fun t => t) t (b t) 1); [auto | apply (is_derive_id t) | lra] |].
-      unfold Rdiv; ring. }
-  assert (L : tends (fun t => v t / ln t) (c0 + c1 * m)).
-  { apply logarithmic; [intros t Ht; eexists; apply Hv; lra |].
-    pose proof (tends_plus _ _ _ _ (tends_plus _ _ _ _ H Hq) (tends_const (c0 + c1 * m))) as G.
-    replace (0 + 0 + (c0 + c1 * m)) with (c0 + c1 * m) in G by ring; revert G.
-    apply is_lim_ext_loc; exists 0.
-    intros t Ht; rewrite (is_derive_unique _ _ _ (Hv t Ht)); unfold b; rewrite Rabs_pos_eq by lra; field; lra. }
-  pose proof is_lim_ln_p as Hln; fold (diverges ln) in Hln.
-  pose proof (tends_inv_diverges ln Hln) as Hi.
-  pose proof (tends_plus _ _ _ _ L (tends_mult _ _ _ _ Hq Hi)) as G1.
-  pose proof (tends_minus _ _ _ _ (tends_const 1) (tends_scal (ln T) _ _ Hi)) as G2.
-  replace (1 - ln T * 0) with 1 in G2 by ring; apply tends_inv in G2; [| lra].
-  pose proof (tends_mult _ _ _ _ G1 G2) as G.
-  replace ((c0 + c1 * m + 0 * 0) * / 1) with (c0 + c1 * m) in G by field; revert G.
-  apply is_lim_ext_loc.
-  exists (Rmax 1 T); intros t Ht; pose proof (Rmax_l 1 T); pose proof (Rmax_r 1 T).
-  assert (0 < ln t) by (rewrite <- ln_1; apply ln_increasing; lra).
-  assert (ln T < ln t) by (apply ln_increasing; lra).
-  unfold v; rewrite ln_div by lra; field; repeat split; lra.
-Qed.
-
-(** The same, where what is added is affine in U, by a function a. *)
-Lemma drift_by_mean (u U a : R -> R) (r m T : R) : 0 < T ->
+(** [t (u' - r) - a(U) -> 0] with affine a and periodic, continuous U of mean m:
+    [(u - r t) / ln (t/T) -> a(m)]. *)
+Lemma logarithmic_drift (u U a : R -> R) (r m T : R) : 0 < T ->
   (forall t, 0 <= t -> ex_derive u t) -> continuous_in_time U ->
   (forall t, 0 <= t -> U (T + t) = U t) -> m = RInt U 0 T / T ->
   (forall x, a x = a 0 + (a 1 - a 0) * x) -> tends (fun t => t * (Derive u t - r) - a (U t)) 0 ->
   tends (fun t => (u t - r * t) / ln (t / T)) (a m).
 Proof.
-  intros HT Hu Hc Hp Hm Ha H; rewrite (Ha m); apply logarithmic_drift with U; trivial.
-  - rewrite Hm; unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r; lra.
-  - revert H; apply tends_ext; intros t Ht; rewrite (Ha (U t)); reflexivity.
+  intros HT Hu Hc Hp Hm Ha H; set (b := fun t => U (Rabs t) - m); set (A := fun t => RInt b 0 t).
+  assert (Hb : forall t, continuous b t).
+  { intros t; apply (continuous_minus (fun t => U (Rabs t))); [apply Hc | apply continuous_const]. }
+  destruct (periodic_integral b T) as [B HB]; trivial.
+  { intros t Ht; unfold b; rewrite !Rabs_pos_eq, Hp by lra; trivial. }
+  { unfold b; rewrite (RInt_minus (fun t => U (Rabs t)) (fun _ => m)), RInt_const, (RInt_ext _ U).
+    - rewrite Hm; unfold minus, plus, opp, scal; simpl; unfold mult; simpl; field; lra.
+    - intros x Hx; rewrite Rmin_left in Hx by lra; rewrite Rabs_pos_eq; lra.
+    - apply (integrable (fun t => U (Rabs t))), Hc.
+    - apply ex_RInt_const. }
+  assert (HA : forall t, is_derive A t (b t)) by (intros; apply derive_integral, Hb).
+  pose proof (tends_inv_diverges _ (is_lim_id p_infty)) as Hq.
+  apply (bounded_vanishes A), (tends_scal (a 1 - a 0)) in Hq; [| exists B; exact HB].
+  rewrite Rmult_0_r in Hq; set (v := fun t => u t - r * t - (a 1 - a 0) * (/ t * A t)).
+  assert (Hv : forall t, 0 < t ->
+    is_derive v t (Derive u t - r - (a 1 - a 0) * ((b t * t - A t) / t ^ 2))).
+  { intros t Ht; unfold v; auto_derive.
+    - repeat split; [apply Hu | | eexists; apply HA]; lra.
+    - change (fun x => A x) with A; rewrite (is_derive_unique _ _ _ (HA t)).
+      change (fun x => u x) with u; field; lra. }
+  assert (L : tends (fun t => v t / ln (t / T)) (a m)).
+  { apply logarithmic; [assumption | intros t Ht; eexists; apply Hv, Ht |].
+    pose proof (is_lim_plus' _ _ _ _ _ (is_lim_plus' _ _ _ _ _ H Hq) (is_lim_const (a m) _)) as G.
+    rewrite !Rplus_0_l in G; revert G; apply is_lim_ext_loc; exists 0; intros t Ht.
+    rewrite (is_derive_unique _ _ _ (Hv t Ht)), (Ha (U t)), (Ha m); unfold b.
+    rewrite Rabs_pos_eq by lra; field; lra. }
+  pose proof (tends_inv_diverges _ (logarithm_diverges T HT)) as Hi.
+  pose proof (is_lim_plus' _ _ _ _ _ L (tends_mult _ _ _ _ Hq Hi)) as G.
+  rewrite Rmult_0_r, Rplus_0_r in G; revert G; apply tends_ext; intros t _; unfold v, Rdiv; ring.
 Qed.
 
 (** Then u has no affine asymptote, unless m = 0. *)
@@ -204,18 +186,13 @@ Proof.
   pose proof (tends_inv_diverges (fun t => t) (is_lim_id p_infty)) as Hi.
   assert (E : s = r).
   { apply (tends_unique (fun t => u t / t)); [| assumption].
-    pose proof (tends_plus _ _ _ _ (tends_const s) (tends_mult _ _ _ _
-      (tends_plus _ _ _ _ Hs (tends_const b)) Hi)) as G.
+    pose proof (is_lim_plus' _ _ _ _ _ (is_lim_const s _) (tends_mult _ _ _ _
+      (is_lim_plus' _ _ _ _ _ Hs (is_lim_const b _)) Hi)) as G.
     replace (s + (0 + b) * 0) with s in G by ring; revert G; apply is_lim_ext_loc.
     exists 0; intros t Ht; field; lra. }
   subst s; apply Hm, (tends_unique (fun t => (u t - r * t) / ln (t / T))); [assumption |].
-  assert (Hl : diverges (fun t => ln (t / T))).
-  { apply (is_lim_comp ln (fun t => t / T) p_infty p_infty p_infty is_lim_ln_p).
-    - apply (diverges_ext (fun t => 0 + / T * t)); [intros; field; lra |].
-      apply diverges_affine; [apply Rinv_0_lt_compat; lra | apply is_lim_id].
-    - exists 0; intros; discriminate. }
-  pose proof (tends_mult _ _ _ _ (tends_plus _ _ _ _ Hs (tends_const b))
-    (tends_inv_diverges _ Hl)) as G.
+  pose proof (tends_mult _ _ _ _ (is_lim_plus' _ _ _ _ _ Hs (is_lim_const b _))
+    (tends_inv_diverges _ (logarithm_diverges T HT))) as G.
   replace ((0 + b) * 0) with 0 in G by ring; revert G; apply tends_ext; intros t Ht.
   unfold Rdiv; f_equal; ring.
 Qed.

@@ -6,27 +6,25 @@ From Coq Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
 Open Scope R_scope.
 
-Definition tends (f : R -> R) (l : R) := is_lim f p_infty l.
-Definition diverges (f : R -> R) := is_lim f p_infty p_infty.
+Notation tends f l := (is_lim f p_infty (Finite l)).
+Notation diverges f := (is_lim f p_infty p_infty).
 
 (** The textbook's words. *)
 Lemma tends_iff f l : tends f l <->
   forall eps, 0 < eps -> exists t0, forall t, t0 < t -> Rabs (f t - l) < eps.
 Proof.
-  unfold tends; rewrite <- is_lim_spec; simpl; split.
+  rewrite <- is_lim_spec; simpl; split.
   - intros H eps He; destruct (H (mkposreal eps He)) as [m Hm]; exists m; exact Hm.
   - intros H eps; destruct (H eps (cond_pos eps)) as [m Hm]; exists m; exact Hm.
 Qed.
 
 Lemma diverges_iff f : diverges f <-> forall m, exists t0, forall t, t0 < t -> m < f t.
-Proof. unfold diverges; rewrite <- is_lim_spec; simpl; reflexivity. Qed.
+Proof. rewrite <- is_lim_spec; simpl; reflexivity. Qed.
 
 (** ** What holds from some time on *)
 
-Lemma tends_ext f g l : (forall t, 0 <= t -> f t = g t) -> tends f l -> tends g l.
-Proof. intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra. Qed.
-
-Lemma diverges_ext f g : (forall t, 0 <= t -> f t = g t) -> diverges f -> diverges g.
+Lemma tends_ext f g (l : Rbar) : (forall t, 0 <= t -> f t = g t) ->
+  is_lim f p_infty l -> is_lim g p_infty l.
 Proof. intros E; apply is_lim_ext_loc; exists 0; intros t Ht; apply E; lra. Qed.
 
 Lemma tends_value f l l' : l = l' -> tends f l -> tends f l'.
@@ -38,27 +36,14 @@ Proof. intros H H'; apply is_lim_unique in H; apply is_lim_unique in H'; congrue
 
 (** ** Passage to the limit *)
 
-Lemma tends_const c : tends (fun _ => c) c.
-Proof. apply is_lim_const. Qed.
-
-Lemma tends_plus f g a b : tends f a -> tends g b -> tends (fun t => f t + g t) (a + b).
-Proof. apply is_lim_plus'. Qed.
-
 Lemma tends_opp f a : tends f a -> tends (fun t => - f t) (- a).
 Proof. apply (is_lim_opp f p_infty a). Qed.
-
-Lemma tends_minus f g a b : tends f a -> tends g b -> tends (fun t => f t - g t) (a - b).
-Proof. apply is_lim_minus'. Qed.
 
 Lemma tends_mult f g a b : tends f a -> tends g b -> tends (fun t => f t * g t) (a * b).
 Proof. intros Hf Hg; apply (is_lim_mult f g p_infty a b); trivial; exact I. Qed.
 
 Lemma tends_scal c f a : tends f a -> tends (fun t => c * f t) (c * a).
-Proof. intros; apply tends_mult; [apply tends_const | assumption]. Qed.
-
-(** Limits pass through a function that is continuous where they end. *)
-Lemma passes f (g : R -> R) l : tends f l -> continuous g l -> tends (fun t => g (f t)) (g l).
-Proof. apply is_lim_comp_continuous. Qed.
+Proof. intros; apply tends_mult; [apply is_lim_const | assumption]. Qed.
 
 (** The reciprocal of a limit that is not 0. *)
 Lemma tends_inv f l : l <> 0 -> tends f l -> tends (fun t => / f t) (/ l).
@@ -76,13 +61,7 @@ Proof. unfold Derive; f_equal; apply Lim_ext; intros; rewrite Rplus_assoc; refle
 
 (** One over what diverges tends to 0. *)
 Lemma tends_inv_diverges s : diverges s -> tends (fun t => / s t) 0.
-Proof.
-  rewrite diverges_iff, tends_iff; intros H eps He.
-  destruct (H (/ eps)) as [t0 Ht0]; exists t0; intros t Ht; specialize (Ht0 t Ht).
-  pose proof (Rinv_0_lt_compat _ He).
-  rewrite Rminus_0_r, Rabs_pos_eq by (left; apply Rinv_0_lt_compat; lra).
-  rewrite <- (Rinv_inv eps); apply Rinv_lt_contravar; [nra | lra].
-Qed.
+Proof. intros H; apply (is_lim_inv s p_infty p_infty H); discriminate. Qed.
 
 (** Squeezed: [-B/s <= e <= B/s] and [s -> oo] give [e -> 0]. *)
 Lemma squeezed e s B : diverges s ->
@@ -128,19 +107,19 @@ Proof.
     apply ex_derive_scal; auto.
 Qed.
 
-(** What lies above a line that rises diverges. *)
-Lemma diverges_above u a c : 0 < c -> (forall t, 0 <= t -> a + c * t <= u t) -> diverges u.
-Proof.
-  rewrite diverges_iff; intros Hc Hu m; exists (Rmax 0 ((m - a) / c)); intros t Ht.
-  pose proof (Rmax_l 0 ((m - a) / c)); pose proof (Rmax_r 0 ((m - a) / c)).
-  assert (Hm : m - a < t * c) by (apply Rlt_div_l; lra).
-  specialize (Hu t); nra.
-Qed.
-
+(** What is affine in what diverges, and rises with it. *)
 Lemma diverges_affine u a f : 0 < f -> diverges u -> diverges (fun t => a + f * u t).
 Proof.
   rewrite !diverges_iff; intros Hf H m; destruct (H ((m - a) / f)) as [t0 Ht0].
   exists t0; intros t Ht; specialize (Ht0 t Ht); apply Rlt_div_l in Ht0; lra.
+Qed.
+
+(** What lies above a line that rises diverges. *)
+Lemma diverges_above u a c : 0 < c -> (forall t, 0 <= t -> a + c * t <= u t) -> diverges u.
+Proof.
+  intros Hc Hu; apply (is_lim_le_p_loc (fun t => a + c * t)).
+  - exists 0; intros t Ht; apply Hu; lra.
+  - apply diverges_affine; [assumption | apply is_lim_id].
 Qed.
 
 (** A rate F(u, a) that is at least F(u, w), which is positive and smooth in all u with P, as long
@@ -249,13 +228,10 @@ Proof. intros [a A]; exists a; intros; rewrite Rabs_Ropp; auto. Qed.
 Lemma exp_vanishes (u a : R -> R) (c : R) : 0 < c -> diverges u -> bounded a ->
   tends (fun t => exp (a t - c * u t)) 0.
 Proof.
-  intros Hc Hu [b Ha]; apply (is_lim_comp exp (fun t => a t - c * u t) p_infty 0 m_infty is_lim_exp_m).
-  - apply (is_lim_ext (fun t => - (c * u t - a t))); [intros; ring |].
-    apply (is_lim_opp (fun t => c * u t - a t) p_infty p_infty).
-    fold (diverges (fun t => c * u t - a t)); rewrite diverges_iff in *; intros m.
-    destruct (Hu ((m + b) / c)) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
-    pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
-    assert (Q : (m + b) / c < u t) by (apply H; lra); apply Rlt_div_l in Q; [| assumption].
-    specialize (Ha t); apply Rabs_le_between in Ha; lra.
-  - exists 0; intros; discriminate.
+  intros Hc Hu [b Ha]; apply (tends_ext (fun t => / exp (c * u t - a t))).
+  { intros t _; rewrite <- exp_Ropp; f_equal; ring. }
+  apply tends_inv_diverges, (is_lim_le_p_loc (fun t => 1 - b + c * u t)).
+  - exists 0; intros t Ht; pose proof (exp_ineq1_le (c * u t - a t)).
+    specialize (Ha t (Rlt_le _ _ Ht)); apply Rabs_le_between in Ha; lra.
+  - apply diverges_affine; assumption.
 Qed.

@@ -20,10 +20,7 @@ Lemma tanh_nonneg (x : R) : 0 <= x -> 0 <= tanh x.
 Proof. intro H; pose proof (tanh_order 0 x H) as T; rewrite tanh_0 in T; assumption. Qed.
 
 Lemma sqrt_positive (x : R) : 0 < sqrt x -> 0 < x.
-Proof.
-  intro H; destruct (Rlt_or_le 0 x) as [| L]; [assumption |].
-  rewrite (sqrt_neg_0 x L) in H; lra.
-Qed.
+Proof. rewrite <- sqrt_0 at 1; apply sqrt_lt_0_alt. Qed.
 
 Lemma below_inverse (a b : R) : 0 < b -> a < / b -> a * b < 1.
 Proof. intros Hb H; apply (Rmult_lt_compat_r b) in H; rewrite ?Rinv_l in H; lra. Qed.
@@ -63,19 +60,14 @@ Proof.
   intros P D H; assert (L : forall x, is_derive (fun x => ln (F x)) x (F' x / F x)).
   { intro x; auto_derive; [repeat split; [exists (F' x); apply D | apply P] |].
     change (fun x => F x) with F; rewrite (is_derive_unique F x _ (D x)); field; apply Rgt_not_eq, P. }
-  destruct (MVT_gen (fun x => ln (F x)) b a (fun x => F' x / F x)) as [c [_ E]]; [auto | |].
-  - intros x _; apply continuity_pt_filterlim, (ex_derive_continuous (fun x => ln (F x))).
-    exists (F' x / F x); apply L.
-  - rewrite ln_div, E, Rabs_mult by apply P; apply Rmult_le_compat_r; [apply Rabs_pos |].
-    unfold Rdiv; rewrite Rabs_mult, Rabs_inv, (Rabs_pos_eq (F c)) by (left; apply P).
-    apply Rle_div_l; [apply P | apply H].
+  rewrite ln_div by apply P; apply (bounded_variation (fun x => ln (F x)) (fun x => F' x / F x)).
+  intros x _; split; [apply L |].
+  unfold Rdiv; rewrite Rabs_mult, Rabs_inv, (Rabs_pos_eq (F x)) by (left; apply P).
+  apply Rle_div_l; [apply P | apply H].
 Qed.
 
 Lemma root_scaled (a x : R) : 0 < a -> sqrt (x / a ^ 2) = sqrt x / a.
-Proof.
-  intro H; unfold Rdiv; rewrite Rmult_comm, sqrt_mult_alt; [| left; apply Rinv_0_lt_compat, pow_lt, H].
-  rewrite sqrt_inv, sqrt_pow2 by (try apply pow_lt; lra); ring.
-Qed.
+Proof. intro H; rewrite sqrt_div_alt, sqrt_pow2 by (try apply pow_lt; lra); reflexivity. Qed.
 
 (** What grows with u, over what grows with it at least f times as fast. *)
 Lemma ratio_below (x s a b f u : R) : f * u + b <= s -> 0 < b -> 0 < f -> 0 <= u -> 0 <= a ->
@@ -90,8 +82,8 @@ Proof.
   nra.
 Qed.
 
-Lemma sign_of {x e : R} : 0 < x -> x = e -> 0 < e.
-Proof. intros H <-; exact H. Qed.
+Lemma sign_of {x e : R} : x = e -> 0 < x -> 0 < e.
+Proof. intros <-; trivial. Qed.
 
 (** ** Signs *)
 
@@ -146,6 +138,10 @@ with positive_part :=
 Ltac positive_sums :=
   repeat match goal with E : ?x = _ + (- (_ * _) + _) ^ 2 |- _ => assert (0 < x) by positive; clear E end.
 
+(** State a fact, unless it is known. *)
+Ltac state F :=
+  let P := type of F in lazymatch goal with _ : P |- _ => fail | _ => pose proof F end.
+
 (** The goal by arithmetic alone, from the facts of the context. *)
 Ltac bounds :=
   repeat match goal with
@@ -154,12 +150,9 @@ Ltac bounds :=
   | H : 0 < Rabs _ |- _ => rewrite Rabs_pos_eq in H by lra
   | H : _ < / _ |- _ => apply below_inverse in H; [| positive]
   | |- Rabs _ <= _ => apply Rabs_le; split
-  | |- context [sin ?a] => lazymatch goal with H : -1 <= sin a <= 1 |- _ => fail
-      | _ => pose proof (SIN_bound a) end
-  | |- context [tanh ?a] => lazymatch goal with H : tanh a < 1 |- _ => fail
-      | _ => pose proof (tanh_below a); pose proof (tanh_above a) end
-  | |- context [exp ?a] => lazymatch goal with H : 0 < exp a |- _ => fail
-      | _ => pose proof (exp_pos a) end
+  | |- context [sin ?a] => state (SIN_bound a)
+  | |- context [tanh ?a] => state (tanh_below a); pose proof (tanh_above a)
+  | |- context [exp ?a] => state (exp_pos a)
   end.
 
 Ltac below_logarithm :=
@@ -180,20 +173,19 @@ Ltac same_argument :=
     | do 2 f_equal; field; positive
     | match goal with E : _ * _ = _ |- _ => field_simplify_eq; [lra | positive] end].
 
+(** Two different arguments of f in the goal, for which the tactic k succeeds. *)
+Ltac at_two f k :=
+  match goal with |- context [f ?a] => match goal with |- context [f ?b] =>
+    tryif constr_eq a b then fail else k a b end end.
+
 Ltac same_under f :=
-  match goal with
-  | |- context [f ?a] => match goal with |- context [f ?b] =>
-      tryif constr_eq a b then fail else replace (f b) with (f a) by (f_equal; same_argument) end
-  end.
+  at_two f ltac:(fun a b => replace (f b) with (f a) by (f_equal; same_argument)).
 
 Ltac same_under_law := match goal with |- context [@phi ?c _] => same_under (@phi c) end.
 
 Ltac opposite_under f value law :=
-  match goal with
-  | |- context [f ?a] => match goal with |- context [f ?b] =>
-      tryif constr_eq a b then fail else let v := value (f a) in
-      replace (f b) with v by (rewrite <- law; f_equal; same_argument) end
-  end.
+  at_two f ltac:(fun a b => let v := value (f a) in
+    replace (f b) with v by (rewrite <- law; f_equal; same_argument)).
 
 (** An exponential as the inverse of another, or by the product of two. *)
 Ltac exp_of_sum :=
@@ -211,8 +203,7 @@ Ltac same_functions :=
     | opposite_under Rabs ltac:(fun v => v) Rabs_Ropp].
 
 Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_sum];
-  repeat match goal with |- context [exp ?a] =>
-    lazymatch goal with H : 0 < exp a |- _ => fail | _ => pose proof (exp_pos a) end end.
+  repeat match goal with |- context [exp ?a] => state (exp_pos a) end.
 
 Ltac exp_of_logarithm :=
   match goal with |- context [exp ?a] => match goal with |- context [ln ?b] =>
@@ -229,8 +220,7 @@ Ltac slopes :=
   repeat match goal with
   | F : forall r r', r < r' -> @phi ?c r' < @phi ?c r, D : forall r, ex_derive (@phi ?c) r
     |- context [Derive (@phi ?c) ?a] =>
-      lazymatch goal with H : Derive (@phi c) a <= 0 |- _ => fail
-      | _ => pose proof (slope_of_decreasing (@phi c) F D a) end
+      state (slope_of_decreasing (@phi c) F D a)
   end.
 
 (** A root of a square, and a modulus of what has a sign. *)
@@ -244,9 +234,8 @@ Ltac roots :=
 
 (** Roots of what differs by the square of a factor a > 0. *)
 Ltac same_roots a :=
-  repeat match goal with |- context [sqrt ?x] => match goal with |- context [sqrt ?y] =>
-    tryif constr_eq x y then fail else
-      replace (sqrt y) with (sqrt x / a) by (rewrite <- root_scaled; [f_equal; field; lra | lra]) end end.
+  repeat at_two sqrt ltac:(fun x y =>
+    replace (sqrt y) with (sqrt x / a) by (rewrite <- root_scaled; [f_equal; field; lra | lra])).
 
 (** The square of a root. *)
 Ltac square_of_root :=
@@ -404,16 +393,16 @@ Ltac by_signs e := first [solve [arithmetic] | ordered e | manifest e | fraction
 Ltac limit_of_parts :=
   cbv beta; match goal with
   | H : tends ?f _ |- tends ?f _ => exact H
-  | |- tends (fun _ => ?c) _ => apply tends_const
-  | |- tends (fun t => @?f t + @?g t) _ => apply (tends_plus f g); limit_of_parts
-  | |- tends (fun t => @?f t - @?g t) _ => apply (tends_minus f g); limit_of_parts
+  | |- tends (fun _ => ?c) _ => apply is_lim_const
+  | |- tends (fun t => @?f t + @?g t) _ => apply (is_lim_plus' f g); limit_of_parts
+  | |- tends (fun t => @?f t - @?g t) _ => apply (is_lim_minus' f g); limit_of_parts
   | |- tends (fun t => - @?f t) _ => apply (tends_opp f); limit_of_parts
   | |- tends (fun t => @?f t * @?g t) _ => apply (tends_mult f g); limit_of_parts
   | |- tends (fun t => @?f t / @?g t) _ => apply (tends_mult f (fun t => / g t)); limit_of_parts
   | |- tends (fun t => / @?f t) _ => eapply (tends_inv f); [| limit_of_parts]; positive
-  | |- tends (fun t => tanh (@?f t)) _ => apply (passes f tanh); [limit_of_parts | apply tanh_continuous]
-  | |- tends (fun t => exp (@?f t)) _ => apply (passes f exp); [limit_of_parts | apply continuous_exp]
-  | |- tends (fun t => @phi ?c (@?f t)) _ => apply (passes f (@phi c));
+  | |- tends (fun t => tanh (@?f t)) _ => apply (is_lim_comp_continuous f tanh); [limit_of_parts | apply tanh_continuous]
+  | |- tends (fun t => exp (@?f t)) _ => apply (is_lim_comp_continuous f exp); [limit_of_parts | apply continuous_exp]
+  | |- tends (fun t => @phi ?c (@?f t)) _ => apply (is_lim_comp_continuous f (@phi c));
       [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
 
@@ -490,7 +479,7 @@ Ltac rate_by_inverse y g F H p a :=
 
 (** What is affine in a field u, where the fact H states that [c t <= u]. *)
 Ltac diverges_by H :=
-  try (eapply diverges_ext; [intros; apply Rplus_comm | apply diverges_affine; [positive |]]);
+  try (eapply tends_ext; [intros; apply Rplus_comm | apply diverges_affine; [positive |]]);
   match type of (H 1 Rle_0_1) with ?c <= _ => apply (diverges_above _ 0 c); [positive |] end;
   intros t Ht; pose proof (H t Ht) as P0; same_inequality P0.
 
@@ -501,15 +490,8 @@ Ltac squeezed_by H D :=
 
 (** A field that is bounded, part by part. *)
 Ltac bounded_by_parts :=
-  cbv beta; match goal with
-  | H : bounded ?f |- bounded ?f => exact H
-  | |- bounded (fun _ => ?c) => apply bounded_const
-  | |- bounded (fun t => @?f t + @?g t) => apply (bounded_plus f g); bounded_by_parts
-  | |- bounded (fun t => @?f t - @?g t) => apply (bounded_plus f (fun t => - g t)); bounded_by_parts
-  | |- bounded (fun t => - @?f t) => apply (bounded_opp f); bounded_by_parts
-  | |- bounded (fun t => @?f t * @?g t) => apply (bounded_mult f g); bounded_by_parts
-  | |- bounded (fun t => @?f t / @?g t) => apply (bounded_mult f (fun t => / g t)); bounded_by_parts
-  end.
+  cbv beta; unfold Rdiv, Rminus; first [eassumption | apply bounded_const
+    | first [apply bounded_plus | apply bounded_mult | apply bounded_opp]; bounded_by_parts].
 
 (** The drift that the fact H gives, with a load of which mean and period are known. *)
 Ltac drifts_by H :=
@@ -519,7 +501,7 @@ Ltac drifts_by H :=
         apply (tends_value _ (a m)); [cbv beta; field; positive |];
         apply (tends_ext (fun t => (u t - r * t) / ln (t / T)));
           [intros t Ht; unfold Rdiv; f_equal; field; positive |];
-        apply (drift_by_mean u U a); first [assumption | exact H | intro; field; positive] end end end.
+        apply (logarithmic_drift u U a); first [assumption | exact H | intro; field; positive] end end end.
 
 (** An equation E about a field u is one about any value of it, if it is an identity. *)
 Ltac of_any_value u E :=
@@ -542,8 +524,7 @@ Ltac unbounded_by H := first [unbounded_where (fun x => 0 <= x) H | unbounded_wh
 
 (** The change of tanh between two arguments: not negative, and at most that of the arguments. *)
 Ltac increase_of_tanh :=
-  match goal with |- context [tanh ?a] => match goal with |- context [tanh ?b] =>
-    tryif constr_eq a b then fail else
-      let D := fresh in assert (D : a <= b) by (apply Rminus_le_0; ring_simplify; positive);
-      pose proof (tanh_order _ _ D); pose proof (tanh_slope _ _ D) end end;
+  at_two tanh ltac:(fun a b =>
+    let D := fresh in assert (D : a <= b) by (apply Rminus_le_0; ring_simplify; positive);
+    pose proof (tanh_order _ _ D); pose proof (tanh_slope _ _ D));
   split; nra.

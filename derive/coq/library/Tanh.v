@@ -59,11 +59,10 @@ Proof. intros [H | ->]; [left; apply tanh_increasing, H | right; reflexivity]. Q
 (** The slope is at most 1: [tanh b - tanh a <= b - a]. *)
 Lemma tanh_slope (a b : R) : a <= b -> tanh b - tanh a <= b - a.
 Proof.
-  intros [H | ->]; [| lra].
-  destruct (MVT_gen tanh a b (fun x => 1 - tanh x ^ 2)) as [c [_ E]].
-  - intros; apply tanh_derive.
-  - intros; apply continuity_pt_filterlim, tanh_continuous.
-  - rewrite E. pose proof (Rle_0_sqr (tanh c)); unfold Rsqr in *; nra.
+  intros H; assert (V : Rabs (tanh b - tanh a) <= 1 * Rabs (b - a)).
+  { apply (bounded_variation tanh (fun x => 1 - tanh x ^ 2)); intros x _; split; [apply tanh_derive |].
+    pose proof (tanh_below x); pose proof (tanh_above x); apply Rabs_le; nra. }
+  rewrite (Rabs_pos_eq (b - a)) in V by lra; apply Rabs_le_between in V; lra.
 Qed.
 
 (** The share of the largest pressure: [(1 + tanh x)/2 = 1/(1 + e^(-2x))]. *)
