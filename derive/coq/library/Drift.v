@@ -48,8 +48,8 @@ Proof.
   pose proof (is_lim_comp_continuous q G p_infty l Hq HG) as HGq; rewrite Gl in HGq.
   pose proof (tends_inv _ _ Hr0 (cesaro u r Hu Hr')) as Hut.
   pose proof (tends_mult _ _ _ _ Hut HGq) as Hp.
-  pose proof (is_lim_minus' _ _ _ _ _ Hp (is_lim_const (/ r * d) _)) as Hz; rewrite Rminus_eq_0 in Hz.
-  pose proof (bounded_vanishes a _ Ha Hz) as Hz'.
+  pose proof (is_lim_minus' _ _ _ _ _ Hp (is_lim_const (/ r * d) _)) as Hz.
+  rewrite Rminus_eq_0 in Hz; pose proof (bounded_vanishes a _ Ha Hz) as Hz'.
   pose proof (tends_mult _ _ _ _ Hp He) as Hw; rewrite Rmult_0_r in Hw.
   pose proof (is_lim_plus' _ _ _ _ _ Hz' Hw) as H; rewrite Rplus_0_r in H; revert H.
   assert (N : exists t0, forall t, t0 < t -> u t / t <> 0).

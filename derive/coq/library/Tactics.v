@@ -400,8 +400,10 @@ Ltac limit_of_parts :=
   | |- tends (fun t => @?f t * @?g t) _ => apply (tends_mult f g); limit_of_parts
   | |- tends (fun t => @?f t / @?g t) _ => apply (tends_mult f (fun t => / g t)); limit_of_parts
   | |- tends (fun t => / @?f t) _ => eapply (tends_inv f); [| limit_of_parts]; positive
-  | |- tends (fun t => tanh (@?f t)) _ => apply (is_lim_comp_continuous f tanh); [limit_of_parts | apply tanh_continuous]
-  | |- tends (fun t => exp (@?f t)) _ => apply (is_lim_comp_continuous f exp); [limit_of_parts | apply continuous_exp]
+  | |- tends (fun t => tanh (@?f t)) _ => apply (is_lim_comp_continuous f tanh);
+      [limit_of_parts | apply tanh_continuous]
+  | |- tends (fun t => exp (@?f t)) _ => apply (is_lim_comp_continuous f exp);
+      [limit_of_parts | apply continuous_exp]
   | |- tends (fun t => @phi ?c (@?f t)) _ => apply (is_lim_comp_continuous f (@phi c));
       [limit_of_parts | apply (ex_derive_continuous (@phi c)); auto]
   end.
