@@ -353,3 +353,10 @@ def test_an_abbreviation_does_not_capture_a_bound_variable() -> None:
     name, u_s = sp.Symbol("n_1", real=True), symbols("u_s")[0]
     relation = equal(h_0, sp.Integral(2 * u_s / L, (u_s, 0, L)))
     assert abbreviated(relation, [sp.Eq(name, 2 * u_s / L)]) == relation
+
+
+@pytest.mark.parametrize(("shown", "where"), [("2 h_0 = h_0", "2 = 1"), ("u_c = u_c", "u_c = h_0")])
+def test_a_typeset_form_abbreviates_by_new_names_alone(shown: str, where: str) -> None:
+    trivial = Insert(equal(u_c, u_c))()
+    said = {"shown": shown, "where": where}
+    assert not Equation("x", "", "", (trivial,), texts=said).typeset_agrees
