@@ -27,11 +27,8 @@ from .theorem import Theorem
 
 PRESSURE, PRESSURE_MAX, h, sigma = symbols("p p_max h sigma")
 _ONE_SOLID = frozenset(
-    (
-        *(*CLOSURE.values(), ROUGHNESS, *ARCHARD[2:], SUPPORT, *map(START.__getitem__, (1, 4))),
-        *(setting.relation for setting in (UNWORN_PIN, SMOOTH_PIN, RIGID, BOUNDED_LOAD)),
-    )
-)
+    (*CLOSURE.values(), ROUGHNESS, *ARCHARD[2:], SUPPORT, START[1], START[4])
+).union(setting.relation for setting in (UNWORN_PIN, SMOOTH_PIN, RIGID, BOUNDED_LOAD))
 """The model of a bearing that alone wears.  With a contact law at every closure it has fields for
 all data: under no load the gap never falls below its first value, so that the rate is bounded,
 and on springs one gap is in equilibrium at each instant, since the pressure falls with it."""
