@@ -13,7 +13,7 @@ Proof.
   rewrite !tends_iff; intros [B Ha] He eps Hep.
   assert (HB : 0 <= B) by (pose proof (Rabs_pos (a 0)); pose proof (Ha 0); lra).
   destruct (He (eps / (B + 1))) as [t0 Ht0]; [apply Rdiv_lt_0_compat; lra |].
-  exists (Rmax 0 t0); intros t Ht; pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
+  exists (Rmax 0 t0); intros t [M1 M2]%Rmax_Rlt.
   assert (Hs : Rabs (e t - 0) < eps / (B + 1)) by (apply Ht0; lra).
   apply Rlt_div_r in Hs; [| lra]; rewrite Rminus_0_r, Rabs_mult in *.
   pose proof (Ha t); pose proof (Rabs_pos (e t)); nra.
@@ -31,8 +31,8 @@ Proof.
   pose proof (is_lim_comp_continuous _ G p_infty 0 Z HG) as W; rewrite G0 in W.
   pose proof (is_lim_plus' _ _ _ _ _ W (bounded_vanishes a _ Ha V)) as P.
   rewrite Rplus_0_r in P; revert P; apply is_lim_ext_loc.
-  destruct (proj1 (diverges_iff u) Hu 0) as [t0 H]; exists (Rmax 0 t0); intros t Ht.
-  pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0); assert (0 < u t) by (apply H; lra).
+  destruct (proj1 (diverges_iff u) Hu 0) as [t0 H]; exists (Rmax 0 t0).
+  intros t [M1 M2]%Rmax_Rlt; assert (0 < u t) by (apply H; lra).
   specialize (E (/ u t)); rewrite A0, !Rminus_0_r in E; rewrite Hf, E by lra; field; lra.
 Qed.
 
@@ -56,8 +56,7 @@ Proof.
   { pose proof (cesaro u r Hu Hr') as C; rewrite tends_iff in C.
     destruct (C (Rabs r) (Rabs_pos_lt _ Hr0)) as [t0 Ht0]; exists t0; intros t Ht Z.
     specialize (Ht0 t Ht); rewrite Z, Rminus_0_l, Rabs_Ropp in Ht0; lra. }
-  destruct N as [t0 N]; apply is_lim_ext_loc; exists (Rmax 0 t0); intros t Ht.
-  pose proof (Rmax_l 0 t0); pose proof (Rmax_r 0 t0).
+  destruct N as [t0 N]; apply is_lim_ext_loc; exists (Rmax 0 t0); intros t [Ht M]%Rmax_Rlt.
   assert (Hn : u t / t <> 0) by (apply N; lra).
   assert (u t <> 0) by (intro Z; apply Hn; rewrite Z; field; lra).
   rewrite Hr, <- Hl by lra; rewrite E; field; repeat split; rewrite ?Hl; lra.
@@ -85,9 +84,8 @@ Proof.
   { apply cesaro; [intros s _; eexists; apply Hw |].
     apply tends_ext with (f := fun s => e s * Derive v (e s)).
     { intros s _; symmetry; apply is_derive_unique, Hw. }
-    apply (is_lim_comp (fun t => t * Derive v t) e p_infty m p_infty H).
-    - apply diverges_affine; [assumption | apply is_lim_exp_p].
-    - exists 0; intros; discriminate. }
+    apply (is_lim_comp (fun t => t * Derive v t) e p_infty m p_infty H); [| exists 0; discriminate].
+    apply diverges_affine; [assumption | apply is_lim_exp_p]. }
   pose proof (is_lim_comp _ _ p_infty m p_infty Hl (logarithm_diverges T HT)) as HC.
   eapply is_lim_ext_loc; [| apply HC; exists 0; intros; discriminate].
   exists 0; intros t Ht; unfold w, e; rewrite exp_ln by (apply Rdiv_lt_0_compat; assumption).
@@ -102,17 +100,16 @@ Proof.
   destruct (continuity_ab_maj (fun x => Rabs (F (Rabs x))) 0 T) as [top [Ht _]]; [lra | |].
   { intros x _; apply continuity_pt_filterlim.
     apply (continuous_comp (fun x => F (Rabs x)) Rabs); [apply Hc | apply continuous_Rabs]. }
-  set (B := Rabs (F (Rabs top))) in *.
+  set (B := Rabs (F (Rabs top)) + 1).
   assert (N : forall n t, 0 <= t <= INR (Datatypes.S n) * T -> Rabs (F t) <= B).
   { assert (I : forall t, 0 <= t <= T -> Rabs (F t) <= B).
-    { intros t Hn; specialize (Ht t Hn); rewrite (Rabs_pos_eq t) in Ht; tauto. }
+    { intros t Hn; specialize (Ht t Hn); rewrite (Rabs_pos_eq t) in Ht by lra; unfold B; lra. }
     induction n as [| n IH]; intros t Hn; [apply I; simpl in Hn; lra |].
     destruct (Rle_lt_dec t T) as [Hle | Hlt]; [apply I; lra |]; rewrite S_INR in Hn.
     replace t with (T + (t - T)) by ring; rewrite Hp by lra; apply IH; lra. }
-  exists (B + 1); split; [unfold B; pose proof (Rabs_pos (F (Rabs top))); lra |].
+  exists B; split; [unfold B; pose proof (Rabs_pos (F (Rabs top))); lra |].
   intros t Ht0; destruct (nfloor_ex (t / T)) as [n [_ Hn]].
   { apply Rmult_le_pos; [lra | left; apply Rinv_0_lt_compat, HT]. }
-  apply Rle_trans with B; [| lra].
   apply (N n); split; [assumption |]; rewrite S_INR; apply Rlt_div_l in Hn; lra.
 Qed.
 

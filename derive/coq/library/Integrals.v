@@ -41,10 +41,10 @@ Proof.
     by (pose proof (D x (x + eps) (Rabs t) (Rabs_pos t)); lra).
   assert (B : x - eps < F (x - eps) (Rabs t))
     by (pose proof (D (x - eps) x (Rabs t) (Rabs_pos t)); lra).
-  assert (A' : locally t (fun s => F (x + eps) (Rabs s) < x + eps)) by exact (C _ t _ (open_lt _ _ A)).
-  assert (B' : locally t (fun s => x - eps < F (x - eps) (Rabs s))) by exact (C _ t _ (open_gt _ _ B)).
-  generalize (filter_and _ _ A' B').
-  apply filter_imp; intros s [As Bs]; pose proof (E (Rabs s) (Rabs_pos s)) as Es.
+  pose proof (C _ t _ (open_lt _ _ A) : locally t (fun s => F (x + eps) (Rabs s) < x + eps)) as A'.
+  pose proof (C _ t _ (open_gt _ _ B) : locally t (fun s => x - eps < F (x - eps) (Rabs s))) as B'.
+  generalize (filter_and _ _ A' B'); apply filter_imp; intros s [As Bs].
+  pose proof (E (Rabs s) (Rabs_pos s)) as Es.
   pose proof (D (p (Rabs s)) (x - eps) (Rabs s) (Rabs_pos s)).
   pose proof (D (x + eps) (p (Rabs s)) (Rabs s) (Rabs_pos s)).
   apply Rabs_lt_between; unfold minus, plus, opp; simpl; split;
@@ -79,9 +79,10 @@ Proof.
   assert (Cy : continuous y t).
   { apply (continuous_ext_loc _ (fun s => y (Rabs s))); [exact Q | apply C]. }
   assert (CG : continuous (fun s => G (y s)) t) by (apply continuous_comp; assumption).
+  rewrite <- G0 in Hw; assert (A : locally t (fun s => G (y s) <> 0))
+    by (apply (CG (fun z => z <> 0)), open_neq, Hw).
   assert (K : continuous (fun s => H s / G (y s)) t)
-    by (apply (continuous_mult H); [assumption | apply continuous_Rinv_comp; [assumption | rewrite G0; exact Hw]]).
-  assert (A : locally t (fun s => G (y s) <> 0)) by (apply (CG (fun z => z <> 0)), open_neq; rewrite G0; exact Hw).
+    by (apply (continuous_mult H); [| apply continuous_Rinv_comp]; assumption).
   assert (B : locally t (fun s => 0 < s)) by exact (open_gt 0 t Ht).
   apply is_derive_Reals; intros eps He.
   pose proof (proj1 (filterlim_locally _ _) K (mkposreal eps He)) as L.
@@ -113,7 +114,8 @@ Lemma separates (y g : R -> R) (c : R) : continuous_in_time y ->
 Proof.
   intros Hc Hg Hy E t Ht; set (f := fun s => y (Rabs s)).
   assert (Cf : forall s, continuity_pt f s) by (intros; apply continuity_pt_filterlim, Hc).
-  destruct (continuity_ab_maj f 0 t) as [b [Hb [Ib _]]], (continuity_ab_min f 0 t) as [a [Ha [Ia _]]]; auto.
+  destruct (continuity_ab_maj f 0 t) as [b [Hb [Ib _]]]; auto.
+  destruct (continuity_ab_min f 0 t) as [a [Ha [Ia _]]]; auto.
   assert (N : forall s, 0 <= s <= t -> f a <= y s <= f b).
   { intros s Hs; rewrite <- (Rabs_pos_eq s) by lra; split; [apply Ha | apply Hb]; exact Hs. }
   destruct (C0_extension_le g (f a) (f b)) as [h [Hh Eh]].
@@ -136,9 +138,9 @@ Proof.
     + apply (continuous_comp f (RInt h (y 0))); [apply Hc |].
       apply (ex_derive_continuous (RInt h (y 0))); eexists; apply derive_integral, Hh.
     + apply (ex_derive_continuous (fun s => c * s)); auto_derive; trivial.
-  - unfold f in M; rewrite (Rabs_pos_eq t Ht), Rabs_R0, RInt_point in M; unfold zero in M; simpl in M.
-    rewrite (RInt_ext g h); [lra |]; intros z Hz; symmetry; apply Eh.
-    pose proof (N 0); pose proof (N t); revert Hz; unfold Rmin, Rmax; destruct (Rle_dec (y 0) (y t)); lra.
+  - unfold f in M; rewrite (Rabs_pos_eq t Ht), Rabs_R0, RInt_point in M; unfold zero in M.
+    simpl in M; rewrite (RInt_ext g h); [lra |]; intros z Hz; symmetry; apply Eh.
+    pose proof (N 0); pose proof (N t); revert Hz; unfold Rmin, Rmax; destruct Rle_dec; lra.
 Qed.
 
 (** By a primitive of a part of the integrand: [F' = g - r]. *)
@@ -155,8 +157,9 @@ Proof.
   pose proof (ex_RInt_continuous r _ _ (A (continuous r) Hr)) as Ir.
   pose proof (RInt_minus g r _ _ Ig Ir : RInt (fun s => g s - r s) (y 0) (y t) = _ - _).
   assert (RInt (fun s => g s - r s) (y 0) (y t) = F (y t) - F (y 0)); [| lra].
-  apply is_RInt_unique, (is_RInt_derive F (fun s => g s - r s)); intros z Hz; [exact (A (fun z => is_derive F z (g z - r z)) D z Hz) |].
-  apply (continuous_minus g r); [exact (A (continuous g) Hg z Hz) | exact (A (continuous r) Hr z Hz)].
+  apply is_RInt_unique, (is_RInt_derive F (fun s => g s - r s)); intros z Hz.
+  - exact (A (fun z => is_derive F z (g z - r z)) D z Hz).
+  - apply (continuous_minus g r); [exact (A _ Hg z Hz) | exact (A _ Hr z Hz)].
 Qed.
 
 Lemma RInt_zero (a b : R) : RInt (fun _ => 0) a b = 0.

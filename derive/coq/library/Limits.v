@@ -13,9 +13,8 @@ Notation diverges f := (is_lim f p_infty p_infty).
 Lemma tends_iff f l : tends f l <->
   forall eps, 0 < eps -> exists t0, forall t, t0 < t -> Rabs (f t - l) < eps.
 Proof.
-  rewrite <- is_lim_spec; simpl; split.
-  - intros H eps He; destruct (H (mkposreal eps He)) as [m Hm]; exists m; exact Hm.
-  - intros H eps; destruct (H eps (cond_pos eps)) as [m Hm]; exists m; exact Hm.
+  rewrite <- is_lim_spec; split; intros H eps; [| exact (H eps (cond_pos eps))].
+  intros He; exact (H (mkposreal eps He)).
 Qed.
 
 Lemma diverges_iff f : diverges f <-> forall m, exists t0, forall t, t0 < t -> m < f t.
@@ -68,10 +67,8 @@ Lemma squeezed e s B : diverges s ->
   (forall t, 0 < t -> - (B / s t) <= e t <= B / s t) -> tends e 0.
 Proof.
   intros Hs He; pose proof (tends_scal B _ _ (tends_inv_diverges s Hs)) as H.
-  pose proof (tends_opp _ _ H) as H'.
-  replace (- (B * 0)) with 0 in H' by ring; replace (B * 0) with 0 in H by ring.
-  apply is_lim_le_le_loc with (f := fun t => - (B * / s t)) (g := fun t => B * / s t); trivial.
-  exists 0; intros t Ht; apply He; lra.
+  rewrite Rmult_0_r in H; pose proof (tends_opp _ _ H) as H'; rewrite Ropp_0 in H'.
+  refine (is_lim_le_le_loc _ _ _ _ _ _ H' H); exists 0; exact He.
 Qed.
 
 (** ** From rates to wear *)
@@ -80,9 +77,8 @@ Qed.
 Lemma mean_value (u : R -> R) a b : 0 <= a < b -> (forall t, 0 <= t -> ex_derive u t) ->
   exists c, a < c < b /\ u b - u a = Derive u c * (b - a).
 Proof.
-  intros Hab Hu; destruct (MVT_cor2 u (Derive u) a b) as [c [E Hc]]; [lra | |].
-  - intros c Hc; apply is_derive_Reals, Derive_correct, Hu; lra.
-  - exists c; split; assumption.
+  intros Hab Hu; destruct (MVT_cor2 u (Derive u) a b) as [c [E Hc]]; [lra | | exists c; tauto].
+  intros c Hc; apply is_derive_Reals, Derive_correct, Hu; lra.
 Qed.
 
 (** A rate of at least c: u grows at least like c t. *)
@@ -142,8 +138,7 @@ Proof.
       assert (Hc' : 0 <= c) by lra.
       specialize (Hr c Hc'); specialize (Hw c Hc'); specialize (Hp (u c) (HP c Hc')); nra. }
     assert (Q0 : 0 < G x) by (apply Hp, (Up (u 0)); tauto).
-    exists (Rmax 0 ((m - u 0) / G x)); intros t Ht.
-    pose proof (Rmax_l 0 ((m - u 0) / G x)); pose proof (Rmax_r 0 ((m - u 0) / G x)).
+    exists (Rmax 0 ((m - u 0) / G x)); intros t [Ht Hm]%Rmax_Rlt.
     assert (Q : m - u 0 < t * G x) by (apply Rlt_div_l; lra).
     destruct (Rlt_or_le m (u t)) as [| L]; [assumption | exfalso].
     destruct (mean_value u 0 t) as [c [H' E]]; [lra | assumption |].
@@ -159,8 +154,7 @@ Lemma accumulates (u : R -> R) r T : 0 < T -> (forall t, 0 <= t -> ex_derive u t
 Proof.
   rewrite !tends_iff; intros HT Hu H eps He.
   assert (He' : 0 < eps / T) by (apply Rdiv_lt_0_compat; lra).
-  destruct (H (eps / T) He') as [t0 Ht0]; exists (Rmax 0 t0); intros t Ht.
-  pose proof (Rmax_l 0 t0) as M1; pose proof (Rmax_r 0 t0) as M2.
+  destruct (H (eps / T) He') as [t0 Ht0]; exists (Rmax 0 t0); intros t [M1 M2]%Rmax_Rlt.
   destruct (mean_value u t (t + T)) as [c [Hc E]]; [lra | assumption |].
   rewrite E; replace (Derive u c * (t + T - t) - r * T) with ((Derive u c - r) * T) by ring.
   rewrite Rabs_mult, (Rabs_pos_eq T) by lra.
@@ -175,8 +169,7 @@ Proof.
   destruct (H (eps / 2)) as [t0 Ht0]; [lra |]; set (a := Rmax 1 (t0 + 1)).
   assert (Ha : 1 <= a) by apply Rmax_l; assert (Ha' : t0 + 1 <= a) by apply Rmax_r.
   set (b := Rabs (u a - r * a)); assert (Hb0 : 0 <= b) by apply Rabs_pos.
-  exists (Rmax a (2 * b / eps)); intros t Ht.
-  pose proof (Rmax_l a (2 * b / eps)) as M1; pose proof (Rmax_r a (2 * b / eps)) as M2.
+  exists (Rmax a (2 * b / eps)); intros t [M1 M2]%Rmax_Rlt.
   destruct (mean_value u a t) as [c [Hc E]]; [lra | assumption |].
   assert (Hd : Rabs (Derive u c - r) < eps / 2) by (apply Ht0; lra).
   assert (Hb : 2 * b < eps * t) by (rewrite (Rmult_comm eps); apply Rlt_div_l; lra).

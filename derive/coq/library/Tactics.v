@@ -13,23 +13,15 @@ Class contact_law := { phi : R -> R }.
 Lemma one_minus_tanh_square_pos (x : R) : 0 < 1 - tanh x ^ 2.
 Proof. pose proof (tanh_below x); pose proof (tanh_above x); nra. Qed.
 
-Lemma tanh_pos (x : R) : 0 < x -> 0 < tanh x.
-Proof. intro H; pose proof (tanh_increasing 0 x H) as T; rewrite tanh_0 in T; assumption. Qed.
-
-Lemma tanh_nonneg (x : R) : 0 <= x -> 0 <= tanh x.
-Proof. intro H; pose proof (tanh_order 0 x H) as T; rewrite tanh_0 in T; assumption. Qed.
-
-Lemma sqrt_positive (x : R) : 0 < sqrt x -> 0 < x.
-Proof. rewrite <- sqrt_0 at 1; apply sqrt_lt_0_alt. Qed.
-
 Lemma below_inverse (a b : R) : 0 < b -> a < / b -> a * b < 1.
 Proof. intros Hb H; apply (Rmult_lt_compat_r b) in H; rewrite ?Rinv_l in H; lra. Qed.
 
 Lemma slope_of_decreasing (f : R -> R) : (forall r r', r < r' -> f r' < f r) ->
   (forall r, ex_derive f r) -> forall r, Derive f r <= 0.
 Proof.
-  intros Hf Hd r; pose (D := fun r => ex_derive_Reals_0 f r (Hd r)); rewrite <- (Derive_Reals f r (D r)).
-  apply (nonpos_derivative_0 f D); intros x y [H | ->]; [left; apply Hf, H | right; reflexivity].
+  intros Hf Hd r; pose (D := fun r => ex_derive_Reals_0 f r (Hd r)).
+  rewrite <- (Derive_Reals f r (D r)); apply (nonpos_derivative_0 f D).
+  intros x y [H | ->]; [left; apply Hf, H | right; reflexivity].
 Qed.
 
 (** A quadratic polynomial of negative discriminant. *)
@@ -58,8 +50,8 @@ Lemma log_slope (F F' : R -> R) (m a b : R) : (forall x, 0 < F x) ->
   Rabs (ln (F a / F b)) <= m * Rabs (a - b).
 Proof.
   intros P D H; assert (L : forall x, is_derive (fun x => ln (F x)) x (F' x / F x)).
-  { intro x; auto_derive; [repeat split; [exists (F' x); apply D | apply P] |].
-    change (fun x => F x) with F; rewrite (is_derive_unique F x _ (D x)); field; apply Rgt_not_eq, P. }
+  { intro x; apply (is_derive_comp ln F x (/ F x) (F' x)); [| apply D].
+    apply is_derive_Reals, derivable_pt_lim_ln, P. }
   rewrite ln_div by apply P; apply (bounded_variation (fun x => ln (F x)) (fun x => F' x / F x)).
   intros x _; split; [apply L |].
   unfold Rdiv; rewrite Rabs_mult, Rabs_inv, (Rabs_pos_eq (F x)) by (left; apply P).
@@ -91,10 +83,8 @@ Proof. intros <-; trivial. Qed.
 Ltac positive :=
   match goal with
   | |- _ /\ _ => split; positive
-  | |- True => exact I
-  | |- ?a <> ?b => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra | lra | not_zero
-      | apply Rmult_integral_contrapositive_currified; positive]
-  | |- ?a > ?b => apply Rlt_gt; positive
+  | |- _ <> _ => first [assumption | apply Rgt_not_eq, Rlt_gt; positive | apply Rlt_not_eq; lra
+      | not_zero | apply Rmult_integral_contrapositive_currified; positive]
   | |- 0 < _ => first [assumption | lra | positive_part]
   | |- 0 <= _ => first [assumption | lra | positive_part]
   | |- _ => lra
@@ -106,29 +96,21 @@ with positive_part :=
   match goal with
   | E : ?x = _ + (- (_ * _) + _) ^ 2 |- 0 < ?x => rewrite E; positive_part
   | |- 0 < ?b * ?u + (- (_ * ?u) + _) ^ 2 => apply square_and_rest; positive
-  | |- 0 < ?u * ?b + (- (_ * ?u) + _) ^ 2 => rewrite (Rmult_comm u b); apply square_and_rest; positive
   | |- 0 < ?a * ?b => apply Rmult_lt_0_compat; positive
   | |- 0 < ?a / ?b => apply Rdiv_lt_0_compat; positive
   | |- 0 < / ?a => apply Rinv_0_lt_compat; positive
   | |- 0 < ?a ^ ?n => apply pow_lt; positive
   | |- 0 < exp _ => apply exp_pos
-  | |- 0 < tanh ?x => apply tanh_pos; positive
   | |- 0 < 1 - tanh _ ^ 2 => apply one_minus_tanh_square_pos
   | |- context [tanh ?x] => pose proof (tanh_above x); pose proof (tanh_below x); lra
   | |- 0 < sqrt _ => apply sqrt_lt_R0; positive
   | |- 0 < 2 * _ * _ + _ * _ ^ 2 + _ + _ => apply quadratic_positive; [positive | assumption]
-  | |- 0 < ?a + ?b => first [apply Rplus_lt_0_compat; positive | apply Rplus_lt_le_0_compat; positive
-                             | apply Rplus_le_lt_0_compat; positive]
+  | |- 0 < _ + _ => first [apply Rplus_lt_0_compat; positive | apply Rplus_le_lt_0_compat; positive]
   | |- 0 <= ?a * ?b => apply Rmult_le_pos; positive
   | |- 0 <= ?a / ?b => apply Rmult_le_pos; [positive | left; apply Rinv_0_lt_compat; positive]
-  | |- 0 <= / ?a => left; apply Rinv_0_lt_compat; positive
   | |- 0 <= ?a ^ 2 => apply pow2_ge_0
-  | |- 0 <= ?a ^ ?n => apply pow_le; positive
-  | |- 0 <= tanh ?x => apply tanh_nonneg; positive
-  | |- 0 <= Rabs _ => apply Rabs_pos
-  | |- 0 <= sqrt _ => apply sqrt_pos
+  | |- 0 <= tanh _ => rewrite <- tanh_0; apply tanh_order; positive
   | |- 0 <= ?a + ?b => apply Rplus_le_le_0_compat; positive
-  | |- 0 <= - (?a * ?b / ?c) => replace (- (a * b / c)) with (a * - b / c) by (unfold Rdiv; ring); positive
   | |- 0 <= ?a => left; positive_part
   | |- 0 < _ => solve [auto | nra]
   | |- _ => nra
@@ -136,7 +118,9 @@ with positive_part :=
 
 (** The signs of sums of which one part is a square. *)
 Ltac positive_sums :=
-  repeat match goal with E : ?x = _ + (- (_ * _) + _) ^ 2 |- _ => assert (0 < x) by positive; clear E end.
+  repeat match goal with
+  | E : ?x = _ + (- (_ * _) + _) ^ 2 |- _ => assert (0 < x) by positive; clear E
+  end.
 
 (** State a fact, unless it is known. *)
 Ltac state F :=
@@ -146,7 +130,7 @@ Ltac state F :=
 Ltac bounds :=
   repeat match goal with
   | H : Rabs _ <= _ |- _ => apply Rabs_le_between in H
-  | H : 0 < sqrt _ |- _ => apply sqrt_positive in H
+  | H : 0 < sqrt _ |- _ => rewrite <- sqrt_0 in H at 1; apply sqrt_lt_0_alt in H
   | H : 0 < Rabs _ |- _ => rewrite Rabs_pos_eq in H by lra
   | H : _ < / _ |- _ => apply below_inverse in H; [| positive]
   | |- Rabs _ <= _ => apply Rabs_le; split
@@ -164,7 +148,8 @@ Ltac below_root :=
     apply Rle_trans with (sqrt (y * y)); [rewrite sqrt_square by positive; lra |];
     apply sqrt_le_1_alt; pose proof (pow2_ge_0 x); lra end.
 
-Ltac arithmetic := first [lra | below_logarithm | below_root | bounds; solve [lra | positive | nra]].
+Ltac arithmetic :=
+  first [lra | below_logarithm | below_root | bounds; solve [lra | positive | nra]].
 
 (** ** Equal arguments of functions *)
 
@@ -199,7 +184,7 @@ Ltac exp_of_sum :=
 
 Ltac same_functions :=
   repeat first [same_under_law | same_under tanh | same_under exp | same_under ln | same_under sqrt
-    | same_under Rabs | opposite_under tanh ltac:(fun v => constr:(- v)) tanh_opp
+    | opposite_under tanh ltac:(fun v => constr:(- v)) tanh_opp
     | opposite_under Rabs ltac:(fun v => v) Rabs_Ropp].
 
 Ltac same_exponentials := rewrite ?tanh_exp; repeat first [same_under exp | exp_of_sum];
@@ -223,14 +208,13 @@ Ltac slopes :=
       state (slope_of_decreasing (@phi c) F D a)
   end.
 
-(** A root of a square, and a modulus of what has a sign. *)
+(** A root of a square, and a modulus of what is not negative. *)
 Ltac roots :=
   repeat first
   [ rewrite Rabs_pos_eq by arithmetic
   | match goal with |- context [sqrt ?x] =>
       match goal with H : _ 0 ?y |- _ => replace (sqrt x) with y
-        by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end
-  | match goal with |- sqrt _ = Rabs _ => rewrite <- sqrt_Rsqr_abs; f_equal; unfold Rsqr; ring end ].
+        by (symmetry; apply sqrt_lem_1; [nra | lra | ring]) end end ].
 
 (** Roots of what differs by the square of a factor a > 0. *)
 Ltac same_roots a :=
@@ -249,12 +233,13 @@ Ltac identity := in_contact; slopes; rewrite ?pow2_sqrt by positive; same_functi
   | progress roots; first [reflexivity | ring | field; positive]
   | exp_of_logarithm; field; positive ].
 
+(** Write [Derive f] for [Derive (fun x => f x)]. *)
+Ltac plain_slopes :=
+  repeat match goal with |- context [Derive (fun x => ?f x) ?a] =>
+    progress change (Derive (fun x => f x) a) with (Derive f a) end.
+
 (** The derivative of an expression, by Coquelicot. *)
-Ltac derived :=
-  auto_derive;
-  [ repeat split; first [positive | auto]
-  | repeat match goal with |- context [Derive (fun x => ?f x) ?a] =>
-      progress change (Derive (fun x => f x) a) with (Derive f a) end; identity ].
+Ltac derived := auto_derive; [repeat split; first [positive | auto] | plain_slopes; identity].
 
 (** An equation; [ln x = y] by [x = exp y]. *)
 Ltac equal :=
@@ -277,7 +262,8 @@ with sorted P :=
 Ltac insert :=
   repeat match goal with E : to_insert (?x = ?e) |- _ => unfold to_insert in E;
     lazymatch x with
-    | _ + _ => idtac | _ - _ => idtac | _ * _ => idtac | _ / _ => idtac | - _ => idtac | _ ^ _ => idtac
+    | _ + _ => idtac | _ - _ => idtac | - _ => idtac
+    | _ * _ => idtac | _ / _ => idtac | _ ^ _ => idtac
     | _ => lazymatch e with context [x] => idtac | _ => try rewrite E in *; clear E end
     end end.
 
@@ -290,13 +276,12 @@ Ltac multiple c F :=
   let P := fresh "P" in pose proof F as P;
   repeat match goal with E : to_insert (?x = ?e) |- _ =>
     lazymatch e with context [x] => unfold to_insert in E; try rewrite E in P; clear E end end;
-  let by_factor k := apply (multiple_of k _ _ _ _ P); insert; identity in
-  first [by_factor c | by_factor 1 | by_factor (-1)].
+  apply (multiple_of c _ _ _ _ P); insert; identity.
 
 (** The sides of the goal are equal where the equation F and others are inserted, or it is F, or F
     is inserted in one side. *)
 Ltac by_equation F := first [given F; insert; equal | multiple 1 F
-  | match goal with |- _ = ?b => let B := fresh in remember b as B; rewrite F; subst B; identity end].
+  | match goal with |- _ = ?b => let B := fresh in set (B := b); rewrite F; subst B; identity end].
 
 (** ** Inequalities *)
 
@@ -315,8 +300,8 @@ Ltac manifest_by H e := manifest_as e; same_inequality H.
 (** The goal is c times the inequality H. *)
 Ltac from_inequality H c :=
   first [apply Rminus_le_0 in H | apply Rminus_lt_0 in H]; difference;
-  match goal with |- ?r 0 ?d => match type of H with _ 0 ?e => replace d with (c * e) by identity end end;
-  positive.
+  let e := match type of H with _ 0 ?e => e end in
+  match goal with |- _ 0 ?d => replace d with (c * e) by identity end; positive.
 
 (** The goal [f a < f b] for a function that is seen to increase. *)
 Ltac increasing :=
@@ -336,7 +321,6 @@ Ltac increasing :=
 (** The goal [f a <= f b] for a function that is seen not to decrease. *)
 Ltac nondecreasing :=
   match goal with
-  | |- ?a <= ?a => apply Rle_refl
   | |- tanh _ <= tanh _ => apply tanh_order; nondecreasing
   | |- ?c + _ <= ?c + _ => apply Rplus_le_compat_l; nondecreasing
   | |- _ + ?c <= _ + ?c => apply Rplus_le_compat_r; nondecreasing
@@ -348,11 +332,7 @@ Ltac nondecreasing :=
   | |- _ => lra
   end.
 
-Ltac same_as_known :=
-  match goal with
-  | H : _ <= _ |- _ => solve [same_inequality H]
-  | H : _ < _ |- _ => solve [same_inequality H]
-  end.
+Ltac same_as_known := match goal with H : _ <= _ |- _ => solve [same_inequality H] end.
 
 (** The goal by the order of tanh, or of a law, at two places, where e is the difference of its
     sides; or by that of tanh and an exponential. *)
@@ -360,15 +340,13 @@ Ltac ordered e :=
   match goal with
   | |- context [exp _] => match goal with |- context [tanh ?a] =>
       let Q := fresh in pose proof (share_below_exp a) as Q; manifest_by Q e end
-  | |- context [tanh ?a] => match goal with |- context [tanh ?b] => tryif constr_eq a b then fail else first
+  | |- context [tanh _] => at_two tanh ltac:(fun a b => first
       [ assert (tanh a <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
-      | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra)
-      | assert (tanh a <= tanh (- b)) by (apply tanh_order; unfold Rdiv in *; lra) ];
-      rewrite ?tanh_opp in *; manifest e end
-  | H : forall r r', r < r' -> ?f r' < ?f r |- context [@phi _ ?a] =>
-      match goal with |- context [@phi _ ?b] => tryif constr_eq a b then fail else
-        assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
-          [lra | left; apply H; unfold Rdiv in *; lra]); manifest e end
+      | assert (tanh (- a) <= tanh b) by (apply tanh_order; unfold Rdiv in *; lra) ];
+      rewrite ?tanh_opp in *; manifest e)
+  | H : forall r r', r < r' -> ?f r' < ?f r |- _ => at_two f ltac:(fun a b =>
+      assert (f a <= f b) by (destruct (Req_dec a b) as [-> | ?];
+        [lra | left; apply H; unfold Rdiv in *; lra]); manifest e)
   end.
 
 (** State which quotients in the goal are positive. *)
@@ -409,13 +387,12 @@ Ltac limit_of_parts :=
   end.
 
 (** A limit that is known, of what diverges that of its reciprocal. *)
-Ltac known_limit F :=
-  let L := fresh in first [pose proof (tends_inv_diverges _ F) as L | pose proof F as L]; cbv beta in L.
+Ltac known F := let L := fresh in pose proof F as L; cbv beta in L.
+Ltac known_limit F := first [known (tends_inv_diverges _ F) | known F].
 
 (** The same, and one period later. *)
 Ltac known_and_later T F :=
-  let L := fresh in first [pose proof (tends_inv_diverges _ F) as L | pose proof F as L];
-  let M := fresh in pose proof (later _ _ T L) as M; cbv beta in L, M.
+  known_limit F; first [known (later _ _ T (tends_inv_diverges _ F)) | known (later _ _ T F)].
 
 (** What a limit is called equals it, since limits are unique. *)
 Ltac by_name F :=
@@ -431,7 +408,7 @@ Ltac limit := eapply tends_value; [| limit_of_parts]; identity.
 
 (** ** General theorems, their functions read off the goal and the facts *)
 
-(** A goal [s < x <-> e < F x], or the reverse, for a function F that is seen to increase. *)
+(** A goal [s < x <-> e < F x] for a function F that is seen to increase. *)
 Ltac threshold_on D :=
   match goal with |- ?s < ?x <-> ?e < ?l =>
     match eval pattern x in l with ?F _ => apply (threshold D F x s e) end end;
@@ -439,16 +416,14 @@ Ltac threshold_on D :=
 
 (** Two inequalities: of a threshold, or each a multiple of the other. *)
 Ltac equivalent :=
-  let exceeds := first [threshold_on (fun x => 0 < x) | threshold_on (fun _ : R => True)] in
-  first [exceeds | apply iff_sym; exceeds | split; let Q := fresh in intro Q; first [arithmetic | from_inequality Q 1]].
+  first [threshold_on (fun x => 0 < x) | threshold_on (fun _ : R => True)
+    | split; let Q := fresh in intro Q; first [arithmetic | from_inequality Q 1]].
 
 (** State the derivative of f at a before the goal, by Coquelicot. *)
 Ltac slope_of f a :=
   let D := fresh in eassert (D : is_derive f a _) by
     (auto_derive; [repeat split; first [positive | auto] | cbv beta; reflexivity]);
-  repeat match type of D with context [Derive (fun x => ?g x) ?b] =>
-    progress change (Derive (fun x => g x) b) with (Derive g b) in D end;
-  revert D.
+  revert D; plain_slopes.
 
 (** Take the derivative in the goal. *)
 Ltac differentiated :=
@@ -459,23 +434,23 @@ Ltac differentiated :=
 Ltac integrated H :=
   match type of (H 0 (Rle_refl 0)) with Derive ?y _ = ?e => match e with context [Derive ?x 0] =>
     match eval pattern (Derive x 0) in e with ?F _ => rewrite (integrates y x (F 1)); cbv beta;
-      [insert; identity | assumption | assumption | intros s Hs; rewrite (H s Hs); identity | assumption]
+      [insert; identity | | | intros s Hs; rewrite (H s Hs); identity |]; assumption
   end end end.
 
 (** Insert the first value of a field. *)
 Ltac at_start y Q := try match goal with H : y 0 = _ |- _ => rewrite H in Q end.
 
-(** The rate of y at a time after 0, by H, where the fact F gives the wear as a function of y under a
-    constant load; a times the slope of that function is p > 0. *)
+(** The rate of y at a time after 0, by H, where the fact F gives the wear as a function of y under
+    a constant load; a times the slope of that function is p > 0. *)
 Ltac rate_by_inverse y g F H p a :=
   match type of (F 0 (Rle_refl 0)) with ?u 0 = ?e => match eval pattern (y 0) in e with ?W _ =>
     match type of H with 0 < ?t => slope_of W (y t); let D := fresh in intro D;
       apply (fun E S => rate_of_inverse y u W g _ _ t ltac:(assumption) H E S D) end end end;
   [ intros s Hs; rewrite (F s Hs);
-    try match goal with L : forall t, 0 <= t -> ?x t = ?x 0 |- _ => rewrite (L s Hs) end; reflexivity
+    try match goal with L : forall t, _ -> ?x t = ?x 0 |- _ => rewrite (L s Hs) end; reflexivity
   | auto
   | match goal with |- ?w <> 0 => let Z := fresh in intro Z; assert (0 < p) by positive;
-      assert (w * a = p) by (match type of H with 0 < ?t => given (F t (Rlt_le _ _ H)) end; insert; identity);
+      assert (w * a = p) by (given (F _ (Rlt_le _ _ H)); insert; identity);
       rewrite Z, Rmult_0_l in *; lra end
   | cbv beta; identity ].
 
@@ -503,7 +478,8 @@ Ltac drifts_by H :=
         apply (tends_value _ (a m)); [cbv beta; field; positive |];
         apply (tends_ext (fun t => (u t - r * t) / ln (t / T)));
           [intros t Ht; unfold Rdiv; f_equal; field; positive |];
-        apply (logarithmic_drift u U a); first [assumption | exact H | intro; field; positive] end end end.
+        apply (logarithmic_drift u U a); first [assumption | exact H | intro; field; positive]
+    end end end.
 
 (** An equation E about a field u is one about any value of it, if it is an identity. *)
 Ltac of_any_value u E :=
@@ -513,16 +489,18 @@ Ltac of_any_value u E :=
 (** A rate F(u, a), by the fact H, that rises with the bounded load a and is positive at its lower
     bound, for all u where P holds. *)
 Ltac unbounded_where P H :=
-  let known x := try match goal with E : forall y : R, _ = _ |- _ => pose proof (E x) end in
+  let told x := try match goal with E : forall y : R, _ = _ |- _ => pose proof (E x) end in
   match goal with B : forall t, 0 <= t -> Rabs (?a t) <= ?U |- diverges (fun t => ?u t) =>
-    match type of (H 0 (Rle_refl 0)) with _ = ?e => match eval pattern (u 0), (a 0) in e with ?F _ _ =>
+    match type of (H 0 (Rle_refl 0)) with _ = ?e =>
+    match eval pattern (u 0), (a 0) in e with ?F _ _ =>
       apply (unbounded u a F (- U) P); [assumption | exact H | | auto | intros; lra + exact I | |];
-      [ intros t Ht; known (u t); specialize (B t Ht); apply Rabs_le_between in B;
-        try match goal with G : forall t, 0 <= t -> 0 <= u t |- _ => pose proof (G t Ht) end; nondecreasing
-      | intros x least; known x; arithmetic
-      | intros x least; known x; positive_sums; auto_derive; repeat split; positive ] end end end.
+      [ intros t Ht; told (u t); specialize (B t Ht); apply Rabs_le_between in B;
+        try match goal with G : forall t, _ -> 0 <= u t |- _ => known (G t Ht) end; nondecreasing
+      | intros x least; told x; arithmetic
+      | intros x least; told x; positive_sums; auto_derive; repeat split; positive ] end end end.
 
-Ltac unbounded_by H := first [unbounded_where (fun x => 0 <= x) H | unbounded_where (fun _ : R => True) H].
+Ltac unbounded_by H :=
+  first [unbounded_where (fun x => 0 <= x) H | unbounded_where (fun _ : R => True) H].
 
 (** The change of tanh between two arguments: not negative, and at most that of the arguments. *)
 Ltac increase_of_tanh :=

@@ -4,14 +4,11 @@ From Coq Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
 Open Scope R_scope.
 
-Lemma exp_half (x : R) : exp x * exp x = exp (2 * x).
-Proof. rewrite <- exp_plus; f_equal; ring. Qed.
-
 (** The stable form: [tanh x = 1 - 2 / (1 + e^(2x))]. *)
 Lemma tanh_exp (x : R) : tanh x = 1 - 2 / (exp (2 * x) + 1).
 Proof.
-  unfold tanh, sinh, cosh; rewrite <- exp_half, exp_Ropp.
-  pose proof (exp_pos x); field; nra.
+  replace (2 * x) with (x + x) by ring; unfold tanh, sinh, cosh.
+  rewrite exp_plus, exp_Ropp; pose proof (exp_pos x); field; nra.
 Qed.
 
 Lemma tanh_opp (x : R) : tanh (- x) = - tanh x.
@@ -60,8 +57,9 @@ Proof. intros [H | ->]; [left; apply tanh_increasing, H | right; reflexivity]. Q
 Lemma tanh_slope (a b : R) : a <= b -> tanh b - tanh a <= b - a.
 Proof.
   intros H; assert (V : Rabs (tanh b - tanh a) <= 1 * Rabs (b - a)).
-  { apply (bounded_variation tanh (fun x => 1 - tanh x ^ 2)); intros x _; split; [apply tanh_derive |].
-    pose proof (tanh_below x); pose proof (tanh_above x); apply Rabs_le; nra. }
+  { apply (bounded_variation tanh (fun x => 1 - tanh x ^ 2)); intros x _.
+    pose proof (tanh_below x); pose proof (tanh_above x).
+    split; [apply tanh_derive | apply Rabs_le; nra]. }
   rewrite (Rabs_pos_eq (b - a)) in V by lra; apply Rabs_le_between in V; lra.
 Qed.
 
@@ -71,7 +69,6 @@ Proof. rewrite tanh_exp, exp_Ropp; pose proof (exp_pos (2 * x)); field; lra. Qed
 
 Lemma share_below_exp (x : R) : (1 + tanh x) / 2 < exp (2 * x).
 Proof.
-  rewrite tanh_exp; pose proof (exp_pos (2 * x)).
-  replace ((1 + (1 - 2 / (exp (2 * x) + 1))) / 2) with (exp (2 * x) / (exp (2 * x) + 1)) by (field; lra).
-  apply Rlt_div_l; nra.
+  rewrite share_exp, exp_Ropp; pose proof (exp_pos (2 * x)) as P; pose proof (Rinv_0_lt_compat _ P).
+  apply (Rmult_lt_reg_r (1 + / exp (2 * x))); rewrite ?Rinv_l, ?Rmult_plus_distr_l, ?Rinv_r; lra.
 Qed.
