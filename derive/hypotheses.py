@@ -23,7 +23,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from .claims import Continuous, Term
-from .language import defined_by
+from .language import defined_by, without_time
 from .laws import GENERAL, TANH
 from .note import model
 from .symbols import rate, symbols, t
@@ -128,7 +128,7 @@ class Hypothesis:
 
 
 def _typed(expr: sp.Basic) -> str:
-    return str(sp.sstr(expr, order="none")).replace("(t)", "")
+    return without_time(sp.sstr(expr, order="none"))
 
 
 def _meaning(relation: sp.Basic) -> str:

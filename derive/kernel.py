@@ -38,7 +38,7 @@ from sympy.core.relational import Relational
 from .claims import Claim
 from .consistency import inconsistency
 from .hypotheses import Hypothesis, Kind
-from .language import fault, names, typeset_name
+from .language import fault, names, typeset_name, without_time
 from .laws import GENERAL
 from .parts import bound_in
 from .time_limit import TimeLimitError, time_limit
@@ -52,7 +52,7 @@ LIMIT_S = 60.0
 
 def plain(expr: sp.Basic) -> str:
     """Return an expression as plain text."""
-    return str(expr).replace("(t)", "")
+    return without_time(str(expr))
 
 
 def listed(labels: Iterable[str]) -> str:

@@ -13,6 +13,7 @@ Key results
     defined_by    the names that a definition introduces
     meant_by      the names in their meaning
     is_changed    whether a part of an expression was changed in place
+    without_time  printed text without the time of fields
 """
 
 from __future__ import annotations
@@ -65,6 +66,8 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
+_NOW = re.compile(rf"\b(?!(?:{'|'.join(head.__name__ for head in _HEADS)}|sqrt)\()(\w+)\(t\)")
+"""A field at the present time, in print."""
 _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
     **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
@@ -337,6 +340,15 @@ def _shows(name: str) -> bool:
     shown = typeset_name(name)
     unlike = shown.translate(_MARKS) not in _FACES
     return unlike and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
+
+
+def without_time(text: str) -> str:
+    """Return printed text with f for each field f(t).
+
+    >>> without_time("u_c(t) + exp(t)")
+    'u_c + exp(t)'
+    """
+    return _NOW.sub(r"\1", text)
 
 
 @cache

@@ -29,7 +29,7 @@ def execute(options: Options) -> Answer:  # noqa: ARG001  # it has none
             "section": e.section,
             "title": e.title,
             "status": e.status.value,
-            "conditions": list(dict.fromkeys(c.text for c in e.conditions)),
+            "conditions": list(dict.fromkeys(c.stated for c in e.conditions)),
         }
         for e in catalogue.all_equations()
     ]

@@ -38,7 +38,7 @@ def document(found: Equation) -> dict[str, Any]:
         "latex": found.latex,
         "printed_latex": found.printed_latex or None,
         "srepr": sp.srepr(found.relation),
-        "conditions": list(dict.fromkeys(c.text for c in found.conditions)),
+        "conditions": list(dict.fromkeys(c.stated for c in found.conditions)),
         "definitions": [{"text": h.text, "latex": h.latex} for h in found.definitions],
         "hypotheses": [
             {"kind": h.kind.value, "text": h.text, "latex": h.latex} for h in found.hypotheses

@@ -61,7 +61,7 @@ def _row(step: Judgement, numbers: Mapping[StepKey, int]) -> dict[str, Any]:
         "rule": step.rule.sentence(*(f"({n})" for n in parents)),
         "theorem": step.rule.source,
         "parents": parents,
-        "assumptions": list(dict.fromkeys(condition.text for condition in step.conditions)),
+        "assumptions": list(dict.fromkeys(c.stated for c in step.conditions)),
         "hypotheses": [h.text for h in step.hypotheses],
         "status": kind if all(check.passed for check in outcomes) else "fails",
         "coq": proved_by_coq(step),

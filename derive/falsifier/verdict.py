@@ -34,6 +34,7 @@ from ..claims import (
 )
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, domain
+from ..language import without_time
 from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, draw_model, slides_fast, slopes_over_data, with_law
@@ -65,9 +66,9 @@ class Counterexample:
     left: sp.Basic | None = None
 
     def __str__(self) -> str:
-        drawn = ", ".join(f"{e.lhs} = {e.rhs}".replace("(t)", "") for e in self.model)
-        left = f"{self.left} fails".replace("(t)", "") if self.left is not None else ""
-        return ": ".join(filter(None, (drawn, left, self.where)))
+        drawn = ", ".join(f"{e.lhs} = {e.rhs}" for e in self.model)
+        left = f"{self.left} fails" if self.left is not None else ""
+        return ": ".join(filter(None, (*map(without_time, (drawn, left)), self.where)))
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,8 @@ from ..symbols import QUANTITIES, symbol, t
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
+_OPEN = (sp.Limit, sp.Integral)
+"""Heads whose scope has no end of its own in print."""
 _SETTINGS = {
     "order": "none",
     "fold_short_frac": False,
@@ -89,9 +91,18 @@ class _NotePrinter(LatexPrinter):
         over, under = inline(above), inline(below)
         if not self._small:
             return rf"\frac{{{over}}}{{{under}}}"
-        over = rf"\left({over}\right)" if above.is_Add else over
-        under = rf"\left({under}\right)" if below.is_Add or below.is_Mul else under
-        return f"{over} / {under}"
+        divides = (below.is_Rational and not below.is_Integer) or isinstance(below, sp.Derivative)
+        over = rf"\left({over}\right)" if above.is_Add or above.has(*_OPEN) else over
+        closed = not (below.is_Add or below.is_Mul or divides or below.has(*_OPEN))
+        return f"{over} / {under}" if closed else rf"{over} / \left({under}\right)"
+
+    def _needs_mul_brackets(self, expr: sp.Expr, first: bool = False, last: bool = False) -> bool:
+        """Return whether a factor is in brackets: what reaches further than itself, unless last."""
+        reaches = expr.has(sp.Limit) or (self._small and isinstance(expr, sp.Derivative))
+        return (reaches and not last) or bool(super()._needs_mul_brackets(expr, first, last))
+
+    def _needs_add_brackets(self, expr: sp.Expr) -> bool:
+        return expr.has(sp.Limit) or bool(super()._needs_add_brackets(expr))
 
     def _print_log(self, expr: sp.Expr, exp: str | None = None) -> str:
         bare = exp is None and expr.args[0].is_Symbol

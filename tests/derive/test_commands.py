@@ -76,6 +76,11 @@ def test_steps_tell_rule_parents_assumptions_and_status(shown):
         assert {"rule", "assumptions", "claim"} <= set(step)
 
 
+def test_conditions_are_stated_in_words_and_as_formulas(shown):
+    found = json.loads(shown("show", "17b", "--as", "json"))
+    assert "the bearing roughens as it wears: f_c > 0" in found["conditions"]
+
+
 def test_verify_has_the_form_of_the_contract(shown):
     rows = json.loads(shown("verify", "1", "7c", "--json"))
     assert [row["id"] for row in rows] == ["1", "7c"]

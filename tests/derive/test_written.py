@@ -6,7 +6,7 @@ import sympy as sp
 from derive.equations import TEXTS, Equation
 from derive.rules.algebra import substitute
 from derive.symbols import rate, symbols, t
-from derive.typeset.display import latex
+from derive.typeset.display import inline, latex
 from derive.written import evaluated, read
 from tests.derive.judgements import equal, given
 
@@ -36,6 +36,22 @@ def test_a_power_of_a_function_of_scaled_time_is_written():
 
 def test_nothing_is_moved():
     assert latex(read("u_c - h_0 + 4 - 2 U_a/f_c")) == r"u_c - h_0 + 4 - \frac{2 U_a}{f_c}"
+
+
+@pytest.mark.parametrize(
+    ("expr", "on_the_line"),
+    [
+        (f_c / rate("u_c"), r"f_c / \left(\mathrm{d}u_c / \mathrm{d}t\right)"),
+        (sp.Mul(rate("u_c"), f_c, evaluate=False), r"\left(\mathrm{d}u_c / \mathrm{d}t\right) f_c"),
+        (sp.Limit(u_c, t, sp.oo) / f_c, r"\left(\lim_{t \to \infty} u_c\right) / f_c"),
+        (
+            sp.Add(sp.Limit(u_c, t, sp.oo), -u_c, evaluate=False),
+            r"\left(\lim_{t \to \infty} u_c\right) - u_c",
+        ),
+    ],
+)
+def test_what_has_no_end_in_print_is_in_brackets(expr: sp.Expr, on_the_line: str) -> None:
+    assert inline(expr) == on_the_line
 
 
 @pytest.mark.parametrize("text", ["[h_0]", "h_0.args", "lambda x: x", "h_0 if f_c else T", "'h_0'"])
