@@ -19,7 +19,7 @@ from typing import NamedTuple
 from .catalogue import all_equations, equation
 from .check import Check, condition_checks, model_checks, step_checks
 from .equations import Equation, Status
-from .kernel import Judgement, StepKey, step_key
+from .kernel import Judgement, StepKey, chain, step_key
 from .rules.assumption import Assume
 
 
@@ -71,12 +71,13 @@ class Verification:
 
 
 class Task(NamedTuple):
-    """An equation and its steps, without those of earlier tasks.
+    """An equation, the keys of all its steps, and the steps that are in no earlier task.
 
     ``stated`` are the steps that an equation states; models are drawn for them.
     """
 
     equation: Equation
+    keys: tuple[StepKey, ...]
     steps: Mapping[StepKey, Judgement]
     stated: frozenset[StepKey]
 
@@ -94,9 +95,10 @@ def tasks(equations: Sequence[Equation]) -> list[Task]:
     seen: set[StepKey] = set()
     result = []
     for entry in equations:
-        new = {key: step for step in entry.steps if (key := step_key(step)) not in seen}
+        keyed = {step_key(step): step for step in chain(*entry.statements)}
+        new = {key: step for key, step in keyed.items() if key not in seen}
         seen |= new.keys()
-        result.append(Task(entry, new, stated & new.keys()))
+        result.append(Task(entry, tuple(keyed), new, stated & new.keys()))
     return result
 
 
@@ -135,10 +137,7 @@ def _verdicts(work: Sequence[Task], done: Sequence[Outcome]) -> tuple[EquationVe
         EquationVerdict(
             task.equation.id,
             task.equation.status,
-            (
-                *(check for s in task.equation.steps for check in known[step_key(s)]),
-                *outcome.equation,
-            ),
+            (*(check for key in task.keys for check in known[key]), *outcome.equation),
         )
         for task, outcome in zip(work, done, strict=True)
     )
