@@ -26,7 +26,7 @@ from sympy.printing.pretty.stringpict import prettyForm
 from . import repairs  # noqa: F401 - of SymPy, before it decides anything
 
 landau_o = sp.Function("o", real=True)
-"""Landau's o: a term that is negligible against its argument, as in ``u = F + o(1)``."""
+"""Landau's o: ``o(order, variable, point)`` is negligible against the order towards the point."""
 
 
 class ClaimError(ValueError):
@@ -42,6 +42,12 @@ class FirstZero(sp.Expr):
     is_commutative = True
     is_positive = True
     is_real = True
+
+    @property
+    def free_symbols(self) -> set[sp.Basic]:
+        """Return the symbols without the variable, which is bound."""
+        names: set[sp.Basic] = self.args[0].free_symbols
+        return names - {self.args[1]}
 
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
         expr, variable = map(printer.doprint, self.args)
@@ -258,7 +264,12 @@ class Asymptotic(Claim):
 
     @property
     def relation(self) -> sp.Basic:
-        return sp.Eq(self.lhs, self.rhs + landau_o(self.order), evaluate=False)
+        return sp.Eq(self.lhs, self.rhs + self.rest, evaluate=False)
+
+    @property
+    def rest(self) -> sp.Expr:
+        """Return the term that is negligible."""
+        return landau_o(self.order, self.variable, self.point)
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
         return replace(self, lhs=change(self.lhs), rhs=change(self.rhs))

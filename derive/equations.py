@@ -182,14 +182,16 @@ class Equation:
         """Return the conditions that a reader needs beside the equation, in its own names.
 
         A setting that the equation itself states is there by name alone; what is only assumed is
-        no condition of itself.
+        no condition of itself, and a name that the equation defines stands in no condition.
         """
-        defined = (h.relation for h in self._naming if isinstance(h.relation, sp.Equality))
-        names = [relation for relation in defined if relation.lhs in self.relation.free_symbols]
+        defined = (h.relation for h in self._naming if h.relation not in self.claims)
+        equal = (relation for relation in defined if isinstance(relation, sp.Equality))
+        names = [relation for relation in equal if relation.lhs in self.relation.free_symbols]
         own = self.claims if self._assumed else ()
         beside = [h for h in self.hypotheses if h.is_setting or h.relation not in own]
-        shown = (h.relation for h in beside if h.shown)
-        return (*(Hypothesis(abbreviated(relation, names)) for relation in shown), *self._signs)
+        shown = [h for h in beside if h.shown]
+        short = (h.relation if h.is_setting else abbreviated(h.relation, names) for h in shown)
+        return (*map(Hypothesis, short), *self._signs)
 
     @property
     def _assumed(self) -> bool:

@@ -40,7 +40,6 @@ from .consistency import inconsistency
 from .hypotheses import Hypothesis, Kind
 from .language import fault, names, typeset_name, without_time
 from .laws import GENERAL
-from .parts import bound_in
 from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
@@ -188,7 +187,7 @@ _MADE: WeakKeyDictionary[Judgement, tuple[tuple[object, ...], object]] = WeakKey
 def _domains(relation: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the domains of the free names in a relation, but the contact law."""
     fields = (f for f in relation.atoms(AppliedUndef) if f.func != GENERAL.phi.func)
-    known = map(domain, (*relation.free_symbols - bound_in(relation), *fields))
+    known = map(domain, (*relation.free_symbols, *fields))
     return tuple(each for each in known if each is not None)
 
 
@@ -270,11 +269,12 @@ def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
 
 
 def _has_slope_over_data(premise: Judgement) -> bool:
-    """Return whether a claim has the derivative of a name by a datum.
+    """Return whether a claim, or a name in it, has the derivative of a name by a datum.
 
     As the datum varies, the hypotheses hold on; under others the derivative may be another one.
     """
-    return any(d.expr.is_Symbol for d in premise.relation.atoms(sp.Derivative))
+    said = premise.relation, *(h.relation for h in premise.hypotheses)
+    return any(d.expr.is_Symbol for relation in said for d in relation.atoms(sp.Derivative))
 
 
 def _require_language(*parts: object) -> None:

@@ -41,7 +41,7 @@ from .claims import (
 )
 from .laws import GENERAL
 from .note.model import FIELDS
-from .parts import bound, is_slope_of_law, nonnegative, positive
+from .parts import bound, bound_in, is_slope_of_law, nonnegative, positive
 from .reals import holds
 from .repairs import misjudged
 from .symbols import CLOCKS, DATA, EXTREMES, QUANTITIES, symbol, t
@@ -109,14 +109,15 @@ def fault(expr: sp.Basic) -> str | None:
     found = found or next(filter(None, map(_leaves_domain, _nodes(expr))), None)
     if not found and any(isinstance(free, sp.Dummy) for free in expr.free_symbols):
         return f"{expr} has a name that others may have"
-    return found
+    twice = () if found else {s.name for s in expr.free_symbols & bound_in(expr)} - CLOCKS - DATA
+    return f"{expr} has {min(twice)} both free and bound" if twice else found
 
 
 def _nodes(expr: sp.Basic) -> Iterator[sp.Basic]:
     """Yield the nodes of an expression, without the infinities that a limit may have."""
     yield expr
     parts = expr.args
-    if isinstance(expr, sp.Limit):
+    if isinstance(expr, (sp.Limit, landau_o)):
         parts = parts[:2]
     elif isinstance(expr, sp.Eq) and isinstance(parts[0], sp.Limit):
         parts = [part for part in parts if part is not sp.oo and part is not -sp.oo]
@@ -132,7 +133,8 @@ def is_changed(expr: sp.Basic) -> bool:
 
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
-    function = isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == 1
+    parts = 3 if isinstance(node, landau_o) else 1
+    function = isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == parts
     if not function and kind not in (sp.Symbol, sp.Dummy, *_HEADS):
         return f"{kind.__name__} is of no kind that a claim may hold"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
@@ -155,6 +157,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
     if any(not variable.is_Symbol for variable in bound(node)):
         return f"{node} binds a quantity that is no variable"
+    if isinstance(node, sp.Integral) and node.args[1][1:].has(*node.variables):
+        return f"{node} has its variable in its own ends"
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
     if len(dict(inner)) < len(inner):
         return f"{node} has two variables of one name"

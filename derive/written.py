@@ -23,7 +23,7 @@ from types import MappingProxyType
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef, UndefinedFunction
+from sympy.core.function import UndefinedFunction
 from sympy.core.relational import Relational
 
 from .claims import landau_o
@@ -76,7 +76,7 @@ def read(text: str, names: Names = MappingProxyType({})) -> sp.Basic:
 @cache
 def evaluated(expr: sp.Basic) -> sp.Basic:
     """Return the evaluated form of an expression that was built unevaluated."""
-    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
+    if not expr.args or isinstance(expr, sp.Derivative):
         return expr
     arguments = map(evaluated, expr.args)
     if isinstance(expr, Relational):  # stays one, without an attempt to decide it
@@ -88,7 +88,7 @@ class _Reader(ast.NodeVisitor):
     """Translates Python's syntax tree of a formula; refuses nodes outside the grammar."""
 
     def __init__(self, names: Names) -> None:
-        self._names = {"t": t, "pi": sp.pi, **names}
+        self._names = {"t": t, "pi": sp.pi, "oo": sp.oo, **names}
 
     def generic_visit(self, node: ast.AST) -> sp.Basic:
         raise ValueError(f"{ast.unparse(node)} is not understood")

@@ -123,7 +123,7 @@ def slopes_over_data(relation: sp.Basic) -> frozenset[sp.Expr]:
     return frozenset(d for d in relation.atoms(sp.Derivative) if t not in d.variables)
 
 
-@lru_cache(maxsize=300)
+@lru_cache(maxsize=2000)
 def _draw_quantities(
     relations: tuple[sp.Basic, ...],
     seed: int,

@@ -364,7 +364,7 @@ def slope_between_jumps(expr: sp.Expr) -> sp.Expr:
     return sp.diff(expr.xreplace(steps), t).xreplace({dummy: s for s, dummy in steps.items()})
 
 
-@lru_cache(maxsize=400)
+@lru_cache(maxsize=2000)
 def _integrated(values: frozenset[tuple[sp.Expr, sp.Expr]]) -> Motion:
     """Return the motion of a model with no more values than its states rest on."""
     model = Model(dict(values))

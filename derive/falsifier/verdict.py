@@ -231,7 +231,7 @@ def _without_domain(relation: sp.Basic, quantity: sp.Expr) -> sp.Basic:
     return relation.replace(quantity.func, sp.Function(quantity.func.__name__, real=True))
 
 
-@lru_cache(maxsize=300)
+@lru_cache(maxsize=2000)
 def _fits(
     model: Model,
     given: Relations,

@@ -80,7 +80,7 @@ expansion_drift = (*_drifts, offset, saturation, growth)
 expansion_oscillation = tuple(map(oscillation, (1, 2)))
 
 (_shown,) = stated("expansion")
-expansion = SlowTime(sp.Eq(_shown.lhs, _shown.rhs - landau_o(m**-3)))(
+expansion = SlowTime(sp.Eq(_shown.lhs, _shown.rhs - landau_o(m**-3, m, sp.oo)))(
     *_drifts, assume(EXPANSION), name="slow time"
 )
 """The number of cycles as a function of the averaged roughness."""

@@ -90,9 +90,9 @@ _time = Separate(sp.Eq(f_c * M * t / T, _whole))(
 _cycles = Consequence(sp.Eq(f_c * M * N, _whole))(_time, defined(N, t / T))
 _by_parts = ByParts(sigma_s - sigma_s**2 / (4 * h_star) * odds, sigma_s / (2 * h_star) * odds)
 (_shown,) = stated("saturating-wear")
-saturating_wear = LeadingTerm(sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One)))(
-    _by_parts(_cycles, rough, smoothing), rough, smoothing, name="saturating wear"
-)
+saturating_wear = LeadingTerm(
+    sp.Eq(_shown.lhs, _shown.rhs - landau_o(sp.S.One, sigma_c, sp.S.Zero))
+)(_by_parts(_cycles, rough, smoothing), rough, smoothing, name="saturating wear")
 """The number of cycles to the roughness sigma_c."""
 
 _bound = K_c * V * p_max / (3 * H_c) * TANH.ratio(1 / f_c)

@@ -9,7 +9,7 @@ import sympy as sp
 
 from ..claims import Equality, HasValue, Limit, Oscillation, Property, Term, claim_of, landau_o
 from ..hypotheses import LOAD, Hypothesis, Kind
-from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, plain
+from ..kernel import Conclusion, Judgement, Rule, RuleError, domain, infer, listed, plain
 from ..language import defined_by
 from ..note.model import START, WORDS, law_of
 from ..parts import bound, nonzero
@@ -102,6 +102,9 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     if not name.is_Symbol:
         name, value, slope = _solved(relation) or (name, value, slope)
     implicit, sign = None if name.is_Symbol else _solvable(relation), domain(name)
+    _require_unsaid(
+        {name} if name.is_Symbol else _new_fields(relation, relation), relation, premises
+    )
     if implicit is None:
         _require_name(name, value, premises)
     new = {name: sp.Dummy(**name.assumptions0)}
@@ -122,6 +125,18 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
         if unsaid or _new_fields(goal, relation):
             raise RuleError(f"missing premise: {in_words(goal)}")
     return tuple(map(Hypothesis, goals))
+
+
+def _require_unsaid(
+    names: set[sp.Expr], relation: sp.Equality, premises: tuple[Judgement, ...]
+) -> None:
+    """Refuse to define names of which premises speak: these would prove what they suppose."""
+    known = Hypothesis(relation, Kind.DEFINITION)
+    for premise in premises:
+        said = (premise.relation, *(h.relation for h in premise.hypotheses))
+        bearers = {name for expr in said for name in (*expr.free_symbols, *functions(expr))}
+        if names & bearers and known not in premise.hypotheses:
+            raise RuleError(f"missing premise: {listed(map(str, names))} is a new name")
 
 
 def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]) -> None:

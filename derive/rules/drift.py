@@ -148,7 +148,7 @@ class LeadingTerm(Theorem):
 
     claim: sp.Equality
     words = (
-        "As the roughness vanishes, one term of {0} exceeds all others: by L'Hôpital's rule its "
+        "As the field in {0} vanishes, one term exceeds all others: by L'Hôpital's rule its "
         "quotient with the left side tends to one.  Take logarithms."
     )
     source = "L'Hopital's rule"
@@ -162,7 +162,7 @@ class LeadingTerm(Theorem):
         small = sp.Dummy("s", positive=True)
         worn, cycles = (e.xreplace({s: small}) for e in (leading, given.rhs / pace))
         slope, claimed = sp.diff(cycles, small), sp.diff(worn, small)
-        moving = cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
+        moving = s == t or cycles.has(t) or clocks(cycles)  # other variables, absent from the slope
         rises = smooth(worn, small) and smooth(slope, small)
         if moving or not rises or not constant(sp.Tuple(pace, worn, slope)):
             raise RuleError(f"missing premise: {self.claim} is about {given.relation}")

@@ -19,6 +19,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
+from ..claims import landau_o
 from ..symbols import QUANTITIES, symbol, t
 
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
@@ -55,6 +56,9 @@ class _NotePrinter(LatexPrinter):
 
     def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
         name = expr.func.__name__
+        if expr.func == landau_o:
+            order, variable, point = map(self._print, expr.args)
+            return rf"o_{{{variable} \to {point}}}({order})"
         if name in QUANTITIES:
             body = QUANTITIES[name].latex
             if expr.args != (t,):

@@ -11,18 +11,28 @@ import sympy as sp
 from derive import catalogue, hypotheses
 from derive.claims import Asymptotic, Equality, Equivalence, Limit
 from derive.equations import Equation
-from derive.hypotheses import CONTINUOUS, NOT_SMOOTHING, RIGID, ROUGHENING, Hypothesis, Kind
+from derive.hypotheses import (
+    CONSTANT,
+    CONTINUOUS,
+    NOT_SMOOTHING,
+    RIGID,
+    ROUGHENING,
+    Hypothesis,
+    Kind,
+)
 from derive.kernel import RuleError
 from derive.language import names
 from derive.laws import EXPONENTIAL, GENERAL, TANH
 from derive.note.model import CLOSURE, FIELDS, SLIP, at_every_closure, contact
 from derive.results import validity
+from derive.rules.algebra import Insert
 from derive.rules.assumption import assume, defined
 from derive.rules.inequalities import Arithmetic
 from derive.symbols import DATA, symbols, t
 from derive.typeset.mathml import display
+from tests.derive.judgements import eq, equal
 
-b_0, f_c, h_0, kappa, U_a, U_c, T, tau = symbols("b_0 f_c h_0 kappa U_a U_c T tau")
+b_0, f_c, h_0, kappa, U, U_a, U_c, T, tau = symbols("b_0 f_c h_0 kappa U U_a U_c T tau")
 h, sigma = symbols("h sigma")
 
 
@@ -69,6 +79,24 @@ def test_names_are_shown_with_what_they_mean() -> None:
     shown = Equation("x", "1", "names", (positive,)).definitions
     assert [h.relation.lhs for h in shown] == [b_0, kappa]
     assert not Equation("x", "1", "itself", (defined(kappa, sp.exp(h_0)),)).definitions
+
+
+def test_a_name_stands_in_no_setting_and_no_condition_of_its_definition() -> None:
+    """The load of "b_0 = U_a if b_0 = U_a(0)" would be any that begins at zero."""
+    still, known = defined(b_0, U_a, assume(CONSTANT)), eq(U_a, U)
+    gap = Insert(equal(h, h_0 - b_0))(eq(h, h_0 - U_a), still)
+    for stated in (still, gap):
+        assert CONSTANT in Equation("x", "1", "load", (stated,)).conditions
+    assert Equation("x", "1", "load", (defined(b_0, U_a, known),)).conditions == known.conditions
+
+
+def test_what_is_negligible_is_so_in_a_limit_that_is_shown() -> None:
+    for identifier, end in (
+        ("logarithmic-wear", r"o_{N \to \infty}(1)"),
+        ("saturating-wear", r"o_{\sigma_c \to 0}(1)"),
+        ("expansion", r"o_{m \to \infty}(\frac{1}{m^{3}})"),
+    ):
+        assert end in catalogue.equation(identifier).latex
 
 
 def test_a_sign_that_the_vocabulary_does_not_tell_is_shown() -> None:
@@ -185,5 +213,6 @@ def test_the_sign_of_a_name_is_a_condition_unless_it_follows() -> None:
     said in the names that the equation has."""
     shown = {i: catalogue.equation(i).conditions for i in ("saturating-wear", "21", "22")}
     assert "h_star > 0" in {h.text for h in shown["saturating-wear"]}
-    assert [h.text for h in catalogue.equation("20").conditions] == ["u_cum > 0"]
+    (positive,) = catalogue.equation("20").conditions
+    assert positive.text == "u_inf(t + T) - u_inf > 0"
     assert not any("Limit" in h.text for i in ("21", "22") for h in shown[i])

@@ -180,7 +180,7 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (FirstZero(x <= q, x), "another type"),
     (sp.Limit(U_a <= q, t, sp.oo), "another type"),
     (sp.Piecewise((x <= q, x <= f_c), (0, True)), "another type"),
-    (sp.exp(landau_o(q)), "not in a sum"),
+    (sp.exp(landau_o(q, t, sp.oo)), "not in a sum"),
     (sp.Subs(b_0, f_c, 1), "no slope"),
     (sp.Subs(rate("u_c"), t, T), "no slope"),  # of that no premise speaks
     (sp.Integral(N, (t, 0, T)), "fixed"),  # T/2, not N T
@@ -188,6 +188,10 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Integral(U_a, (tau, 0, 1)), "fixed"),
     (sp.Limit(u_c * N, t, sp.oo), "fixed"),
     (sp.Integral(sp.Piecewise((1, N * U_a >= h_0), (0, True)), (t, 0, T)), "fixed"),
+    (sp.Integral(1 / (q - k) ** 2, (q, 2 * q, 3 * q)), "own ends"),  # infinite for k = 5 q/2
+    (sp.Integral(U_a, (t, 0, t + T)), "own ends"),
+    (x + sp.Integral(x, (x, 0, q)), "free and bound"),
+    (x - sp.Derivative(LAW(x), x), "free and bound"),
     (sp.Integral(1 / q, (q, 0, k)), "q is never 0"),  # infinite
     (sp.Integral(U_a, (t, -T, T)), "t is never -T"),  # nobody says what the load was
     (U_a.subs(t, t - T), "at no time"),
@@ -260,7 +264,11 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     (Kind.CONDITION, sp.Ne(forever(u_c), h_0), "a value of the limit"),  # u_c = C t: none
     (Kind.CONDITION, sp.Eq(theta * forever(u_c), 0), "a value of the limit"),  # theta = 0
     (Kind.CONDITION, sp.Ge(forever(u_c), h_0), "a value of the limit"),
-    (Kind.CONDITION, sp.Eq(u_c, h + landau_o(sp.S.One)), "cannot be assumed"),  # 1/t and 2/t
+    (
+        Kind.CONDITION,
+        sp.Eq(u_c, h + landau_o(sp.S.One, t, sp.oo)),
+        "cannot be assumed",
+    ),  # 1/t and 2/t
     (Kind.DEFINITION, SlowEquation(f_c, h_0), "no equation"),  # it says what f_c is
     (Kind.CONDITION, Continuous(U_a, h), "no 1 parts"),
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k

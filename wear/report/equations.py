@@ -78,7 +78,10 @@ def _title(equation: derived.Equation) -> str:
     A part of the title that repeats one of the hypotheses is left out.
     """
     words = [c for c in equation.conditions if c.is_setting]
-    conditions = [Hypothesis(abbreviated(c.relation, equation.where)) for c in equation.conditions]
+    conditions = [
+        c if c.is_setting else Hypothesis(abbreviated(c.relation, equation.where))
+        for c in equation.conditions
+    ]
     short = [c.latex for c in conditions if _short(c)]
     formulas = [f"${part}$" for latex in short for part in latex.split(r", \quad ")]
     texts = [markup(c.text) for c in conditions if c not in words and not _short(c)]

@@ -237,7 +237,7 @@ FAMILIES = (
             defined(theta, b_0 + 0)),
     }),
     Family(each, (), {
-        "a circle that closes one period later": ("circle",
+        "a circle that closes one period later": ("a new name",
             lambda: defined(b_0, later(G) + 1, one_period_later(NAMED))),
     }),
     # ---- equations of the model that contradict each other, of which no reader is told
@@ -337,6 +337,11 @@ FAMILIES = (
         "the mean over all cycles so far": ("is constant", b_0,  # N h_0 under U_a = h_0
             sp.Integral(U_a, (t, 0, N * T)) / T),
         "the contact law at a time": ("is constant", theta, PHI(t / T)),
+        "what is constant as it is called so": ("a new name", b_0, u_c, eq(u_c, b_0)),
+        "a positive name for what is as large as that": ("a new name", u_cum, -q * f_c,
+            ge(-q * f_c, u_cum)),
+        "a mean that is there as it is called so": ("a new name", U_mean,
+            sp.Integral(U_a, (t, 0, T)) / T, eq(U_mean, sp.Integral(U_a, (t, 0, T)) / T)),
         "what steps": ("is constant", b_0, sp.Piecewise((h_0, u_c <= h_0), (0, True))),
     }),
     Family(defined_as, (

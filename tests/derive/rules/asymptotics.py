@@ -262,6 +262,10 @@ FAMILIES = (
         "a multiple that may be zero": (r"Ne\(f_c, 0\)",
             lambda: LeadingTerm(sp.Eq(sp.log(G), sp.log(q / sigma_c)))(
                 eq(f_c * G, f_c * q / sigma_c))),
+        # at first, not at last
+        "a rate that is infinite at first": ("is about",
+            lambda: LeadingTerm(equal(sp.log(SPEED / C), -sp.log(t / T) / 2))(
+                eq(SPEED / C, sp.sqrt(T / t) + 1))),
         # N = (1 + 1/e) L/sigma_c
         "an exponential that does not fade": ("quotient of the slopes",
             lambda: LeadingTerm(sp.Eq(LOG_N, -sp.log(sigma_c / L)))(

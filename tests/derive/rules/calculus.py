@@ -367,6 +367,10 @@ FAMILIES = (
         # p_inf as a function of f_c has another slope under another law
         "a slope and a value of the datum": ("further conditions", SLOPE - f_c, sloped(),
             eq(f_c, h_0)),
+        # u_cum = f_c h_0, f_c = h_0: not f_c^2, whose slope is 2 f_c
+        "a slope by name and a value of the datum": ("further conditions", u_cum - f_c**2, GROWING,
+            Arithmetic(equal(theta, h_0))(defined(theta, SLOPE, sloped()), sloped()),
+            eq(f_c, h_0)),
         "the slope of a root": ("Ne|> 0", sp.diff(sp.sqrt(h_0), h_0)),
     }),
     # ---- inequalities
