@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from .claims import Term, claim_of, mapped
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, step_key
+from .kernel import Judgement, chain, domain, step_key
 from .language import defined_by, names
 from .laws import written_out
 from .parts import bound_in
@@ -182,16 +182,22 @@ class Equation:
         """Return the conditions that a reader needs beside the equation, in its own names.
 
         A setting that the equation itself states is there by name alone; what is only assumed is
-        no condition of itself, and a name that the equation defines stands in no condition.
+        no condition of itself.
         """
-        defined = (h.relation for h in self._naming if h.relation not in self.claims)
-        equal = (relation for relation in defined if isinstance(relation, sp.Equality))
-        names = [relation for relation in equal if relation.lhs in self.relation.free_symbols]
         own = self.claims if self._assumed else ()
         beside = [h for h in self.hypotheses if h.is_setting or h.relation not in own]
         shown = [h for h in beside if h.shown]
-        short = (h.relation if h.is_setting else abbreviated(h.relation, names) for h in shown)
+        short = (h.relation if h.is_setting else self._in_own_names(h.relation) for h in shown)
         return (*map(Hypothesis, short), *self._signs)
+
+    def _in_own_names(self, condition: sp.Basic) -> sp.Basic:
+        """Return a condition in names of the equation; of those that it defines only their sign."""
+        equal = (h.relation for h in self._naming if isinstance(h.relation, sp.Equality))
+        names = [relation for relation in equal if relation.lhs in self.relation.free_symbols]
+        short = abbreviated(condition, names)
+        if short in (domain(relation.lhs) for relation in names):
+            return short
+        return abbreviated(condition, [n for n in names if n not in self.claims])
 
     @property
     def _assumed(self) -> bool:
