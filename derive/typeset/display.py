@@ -58,7 +58,7 @@ class _NotePrinter(LatexPrinter):
         name = expr.func.__name__
         if expr.func == landau_o:
             order, variable, point = map(self._print, expr.args)
-            return rf"o_{{{variable} \to {point}}}({order})"
+            return rf"o_{{{variable} \to {point}}}\left({order}\right)"
         if name in QUANTITIES:
             body = QUANTITIES[name].latex
             if expr.args != (t,):

@@ -92,9 +92,9 @@ def test_a_name_stands_in_no_setting_and_no_condition_of_its_definition() -> Non
 
 def test_what_is_negligible_is_so_in_a_limit_that_is_shown() -> None:
     for identifier, end in (
-        ("logarithmic-wear", r"o_{N \to \infty}(1)"),
-        ("saturating-wear", r"o_{\sigma_c \to 0}(1)"),
-        ("expansion", r"o_{m \to \infty}(\frac{1}{m^{3}})"),
+        ("logarithmic-wear", r"o_{N \to \infty}\left(1\right)"),
+        ("saturating-wear", r"o_{\sigma_c \to 0}\left(1\right)"),
+        ("expansion", r"o_{m \to \infty}\left(\frac{1}{m^{3}}\right)"),
     ):
         assert end in catalogue.equation(identifier).latex
 
