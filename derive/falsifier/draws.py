@@ -14,7 +14,6 @@ Key results
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
 
@@ -133,7 +132,7 @@ def _draw_quantities(
     """Return a model of relations, in which the quantities ``slopes`` depend on the data
     ``moving``, by which they are differentiated."""
     chance, draft = random.Random(seed), _Draft(moving)
-    parts = [p for relation in relations for p in _parts(relation, chance)]
+    parts = [part for relation in relations for part in sp.And.make_args(relation)]
     constants = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
     draft.values.update(constants)
     parts = [p if p.has(sp.Derivative) else p.xreplace(constants) for p in parts]
@@ -227,28 +226,12 @@ def _implicit_rate(field: sp.Expr, image: sp.Expr) -> sp.Expr:
     return (sp.diff(flat, t) / (1 - sp.diff(flat, _PLAIN))).xreplace({_PLAIN: field})
 
 
-def _parts(relation: sp.Basic, chance: random.Random) -> Iterator[sp.Basic]:
-    """Yield the parts of a conjunction, and one random part of a disjunction."""
-    if isinstance(relation, sp.And):
-        for part in relation.args:
-            yield from _parts(part, chance)
-    elif isinstance(relation, sp.Or):
-        yield from _parts(chance.choice(sorted(relation.args, key=str)), chance)
-    else:
-        yield relation
-
-
 def _imposed(part: sp.Basic, chance: random.Random, wild: bool) -> sp.Basic | None:
     """Return an equation that implies a relation; None to leave the relation to chance."""
     if isinstance(part, (sp.Gt, sp.Ge, sp.Lt, sp.Le)):
         high, low = part.gts, part.lts
         if chance.random() > 0.7 or low.is_infinite or high.is_infinite:
             return None
-        if isinstance(low, sp.Limit) or isinstance(high, sp.Limit):
-            part = sp.Eq(
-                *((low, high - 1) if isinstance(low, sp.Limit) else (high, low + 1)), evaluate=False
-            )
-            return _imposed(part, chance, wild)
         gaps = (sp.S.One, sp.S.Zero, sp.S.Half, sp.Integer(2), t, sp.exp(-t), sp.Integer(1000))
         gap = chance.choice(gaps if wild else gaps[:-1])
         if gap == 0 and isinstance(part, (sp.Gt, sp.Lt)):

@@ -279,9 +279,9 @@ class Model:
 
         It is 0 if an increase of the datum by one half has no effect.
         """
-        (datum,) = data[:1]
-        if len(data) != 1 or not self.values.get(datum, sp.nan).is_Rational:
-            raise UndecidedError("a derivative of a higher order")
+        (datum,) = data
+        if not self.values.get(datum, sp.nan).is_Rational:
+            raise UndecidedError("a datum that rests on others")
         value, part = fraction(self.values[datum]), fmpq(1, 2500 if self.states else 10**6)
         size = abs(value) if value != 0 else fmpq(1)
 

@@ -211,18 +211,20 @@ def _needed(
     """Return the relations that give every part of an expression a value."""
     if expr in known:
         return []
-    parts = () if isinstance(expr, sp.Derivative) else expr.args
-    parts, ends = (parts[:1], parts[1][1:]) if isinstance(expr, sp.Integral) else (parts, ())
+    inside: tuple[sp.Basic, ...] = () if isinstance(expr, sp.Derivative) else expr.args
+    ends: tuple[sp.Expr, ...] = ()
+    if isinstance(expr, sp.Integral):
+        inside, ends = inside[:1], expr.limits[0][1:]
     hidden = {x: sp.Dummy(**x.assumptions0) for x in bound(expr) - {t}}
-    parts = (*(part.xreplace(hidden) for part in parts), *ends)  # unknown to premises
+    parts = (*(part.xreplace(hidden) for part in inside), *ends)  # unknown to premises
     over_time = isinstance(expr, sp.Integral) and t in bound(expr)  # what holds at all times counts
     goals = [goal for part in parts for goal in _needed(part, () if over_time else known, facts)]
     if over_time:
         goals = [goal.xreplace({t: sp.Dummy()}) for goal in goals if not holds(goal, facts)]
     if isinstance(expr, sp.Integral):
-        (s,) = hidden.values() or (t,)
+        (s,), (low, high) = hidden.values() or (t,), ends
         beyond = [sp.And(*(positive(side * (s - end)) for end in ends)) for side in (1, -1)]
-        beyond += [sp.Not(fact) for fact in _between(s, *ends, facts)]
+        beyond += [sp.Not(fact) for fact in _between(s, low, high, facts)]
         goals = [sp.Or(goal, *beyond) if goal.has(s) else goal for goal in goals]
         goals += integrable(parts[0], s)
     return [*goals, *needs(expr)]
