@@ -168,8 +168,7 @@ class Equation:
         long-time expansion that expansion."""
         formulas: list[str] = []
         for relation in (h.relation for h in self.definitions):
-            is_term = isinstance(getattr(relation, "rhs", None), Term)
-            formulas += EXPANSION if is_term else [latex(presentable(relation))]
+            formulas += EXPANSION if _is_coefficient(relation) else [latex(presentable(relation))]
         return tuple(dict.fromkeys(formulas))
 
     @property
@@ -279,6 +278,14 @@ def numbered(results: Mapping[str, Proved]) -> tuple[Equation, ...]:
         for identifier, proved in results.items()
         for texts in (TEXTS[identifier],)
     )
+
+
+def _is_coefficient(relation: sp.Basic) -> bool:
+    """Return whether a relation defines c_n or w_n, by this name, as a term of the expansion."""
+    if not isinstance(relation, sp.Equality) or not isinstance(relation.rhs, Term):
+        return False
+    name, term = relation.args
+    return str(name.func if name.args else name) == f"{term.letter}_{term.args[0]}"
 
 
 def _names(relations: Iterable[sp.Basic]) -> set[str]:

@@ -38,7 +38,7 @@ from sympy.core.relational import Relational
 from .claims import Claim
 from .consistency import inconsistency
 from .hypotheses import Hypothesis, Kind
-from .language import fault, names, typeset_name, without_time
+from .language import fault, in_time, names, typeset_name, without_time
 from .laws import GENERAL
 from .time_limit import TimeLimitError, time_limit
 
@@ -286,6 +286,9 @@ def _require_language(*parts: object) -> None:
     expressions += [hypothesis.relation for hypothesis in said]
     if found := next(filter(None, map(fault, expressions)), None):
         raise RuleError(f"no claim: {found}")
+    fields = frozenset[sp.Expr]().union(*map(in_time, expressions))
+    if len({field.func for field in fields}) < len(fields):
+        raise RuleError("no claim: a field of time is one of scaled time, too")
     bearers = frozenset().union(*map(names, expressions))
     if any(expr.has(sp.E) for expr in expressions):
         bearers |= {("E", sp.E)}  # it is printed like a name

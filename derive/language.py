@@ -66,7 +66,8 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
-_NOW = re.compile(rf"\b(?!(?:{'|'.join(head.__name__ for head in _HEADS)}|sqrt)\()(\w+)\(t\)")
+_OF_TIME = "|".join(head.__name__ for head in (*_HEADS, _LAW, sp.sqrt))
+_NOW = re.compile(rf"\b(?!(?:{_OF_TIME})\()(\w+)\(t\)")
 """A field at the present time, in print."""
 _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
@@ -157,6 +158,8 @@ def _fault(node: sp.Basic) -> str | None:
         return f"{node} has signs of its own" if own else _fault_of_name(node, kind.__name__)
     if any(not variable.is_Symbol for variable in bound(node)):
         return f"{node} binds a quantity that is no variable"
+    if isinstance(node, _BODIES) and any(isinstance(name, sp.Dummy) for name in bound(node)):
+        return f"{node} binds a name that others may have"
     if isinstance(node, sp.Integral) and node.args[1][1:].has(*node.variables):
         return f"{node} has its variable in its own ends"
     inner = {(part.name, part) for part in node.args[0].atoms(sp.Symbol)} if bound(node) else ()
@@ -232,7 +235,8 @@ def _is_wave(node: sp.Expr) -> bool:
 
 def _is_of_field(node: Continuous) -> bool:
     (field,) = node.args
-    return isinstance(field, AppliedUndef) and field.func not in _FUNCTIONS
+    moves = isinstance(field, AppliedUndef) and field.has(t, _CYCLE[0])
+    return moves and field.func not in _FUNCTIONS
 
 
 def _is_of_data(zero: FirstZero) -> bool:
@@ -374,6 +378,13 @@ def names(expr: sp.Basic) -> frozenset[tuple[str, object]]:
     return frozenset(
         (name, bearer) for name, bearer in found if name and not isinstance(bearer, sp.Dummy)
     )
+
+
+@cache
+def in_time(expr: sp.Basic) -> frozenset[sp.Expr]:
+    """Return the fields in an expression at the present time, t or tau."""
+    fields = (f for f in expr.atoms(AppliedUndef) if f.func not in _FUNCTIONS)
+    return frozenset(f for f in fields if f.args in ((t,), (_CYCLE[0],)))
 
 
 def defined_by(relation: sp.Basic) -> frozenset[str]:

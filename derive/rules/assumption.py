@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Callable
 
 import sympy as sp
@@ -144,6 +145,9 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
     now = at_an_instant(value)
     if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
+    known = re.fullmatch("([cw])_([1-9])", str(name.func if name.args else name))
+    if isinstance(value, Term) and known and known.groups() != (value.letter, str(value.args[0])):
+        raise RuleError(f"missing premise: {name} is the term {value.letter}_{value.args[0]}")
     if value != _MEANT.get(name, value):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
     expr = inserted(now, tuple(filter(lasts, premises)))

@@ -14,17 +14,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from itertools import permutations
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
 from ..claims import landau_o
-from ..symbols import QUANTITIES, symbol, t
+from ..laws import GENERAL
+from ..symbols import EXTREMES, QUANTITIES, symbol, t
 
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
+_TAU, _LAW = symbol("tau"), GENERAL.phi.func.__name__
 _OPEN = (sp.Limit, sp.Integral)
 """Heads whose scope has no end of its own in print."""
 _SETTINGS = {
@@ -63,8 +66,8 @@ class _NotePrinter(LatexPrinter):
             body = QUANTITIES[name].latex
             if expr.args != (t,):
                 body += f"({self._print(expr.args[0])})"
-        elif isinstance(expr, AppliedUndef) and expr.args == (symbol("tau"),):
-            body = name  # a field of scaled time
+        elif isinstance(expr, AppliedUndef) and expr.args == (_TAU,) and name != _LAW:
+            body = str(super()._print_Symbol(sp.Symbol(name)))  # a field of scaled time
         else:
             return str(super()._print_Function(expr, exp))
         return body if exp is None else rf"{body}^{{{exp}}}"
@@ -103,13 +106,20 @@ class _NotePrinter(LatexPrinter):
     def _needs_mul_brackets(self, expr: sp.Expr, first: bool = False, last: bool = False) -> bool:
         """Return whether a factor is in brackets: what reaches further than itself, unless last."""
         reaches = expr.has(sp.Limit) or (self._small and isinstance(expr, sp.Derivative))
+        reaches = reaches or _is_extreme(expr)
         return (reaches and not last) or bool(super()._needs_mul_brackets(expr, first, last))
 
     def _needs_add_brackets(self, expr: sp.Expr) -> bool:
         return expr.has(sp.Limit) or bool(super()._needs_add_brackets(expr))
 
+    def parenthesize(self, item: sp.Expr, *levels: Any, **options: Any) -> str:
+        """Return the base of a power, or the like, in brackets where it needs some."""
+        if _is_extreme(item):
+            return rf"\left({self._print(item)}\right)"
+        return str(super().parenthesize(item, *levels, **options))
+
     def _print_log(self, expr: sp.Expr, exp: str | None = None) -> str:
-        bare = exp is None and expr.args[0].is_Symbol
+        bare = exp is None and expr.args[0].is_Symbol and not self._small
         return rf"\ln {self._print(expr.args[0])}" if bare else str(super()._print_log(expr, exp))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
@@ -156,10 +166,15 @@ class _NotePrinter(LatexPrinter):
     def _print_Derivative(self, expr: sp.Derivative) -> str:
         (variable, order), *_ = expr.variable_count
         power = "" if order == 1 else f"^{{{order}}}"
-        sign = r"\mathrm{d}" if variable in (t, symbol("tau")) else r"\partial "
+        sign = r"\mathrm{d}" if variable in (t, _TAU) else r"\partial "
         above = rf"{sign}{power}{self._print(expr.expr)}"
         below = rf"{sign}{self._print(variable)}{power}"
         return f"{above} / {below}" if self._small else rf"\frac{{{above}}}{{{below}}}"
+
+
+def _is_extreme(expr: sp.Expr) -> bool:
+    r"""Return whether an expression is printed as an operator with an operand, ``\max U_a``."""
+    return isinstance(expr, sp.Symbol) and expr.name in EXTREMES
 
 
 def _factors(expr: sp.Expr) -> Iterator[sp.Expr]:

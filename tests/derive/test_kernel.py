@@ -315,6 +315,13 @@ def test_signs_of_names_of_ones_own_are_shown() -> None:
         assert sp.Gt(name, 0, evaluate=False) in [hypothesis.relation for hypothesis in shown]
 
 
+def test_a_field_is_one_of_time_or_of_scaled_time() -> None:
+    """v(tau) is typeset as v, like a field at the present time."""
+    v = sp.Function("v", real=True)
+    with pytest.raises(RuleError, match="of scaled time, too"):
+        Arithmetic(sp.Lt(v(t), v(symbols("tau")[0]) + 1))(eq(v(t), v(symbols("tau")[0])))
+
+
 def test_a_name_that_is_printed_like_e_is_refused() -> None:
     with pytest.raises(RuleError, match="one name"):
         defined(sp.Symbol("E", real=True), sp.E + 1)

@@ -28,6 +28,7 @@ h_0, f_c, C, T, N, q, k, b_0, U = symbols("h_0 f_c C T N q k b_0 U")
 theta, kappa, tau, p_max = symbols("theta kappa tau p_max")
 x, y = sp.symbols("x y", real=True)
 HIDDEN, ALIKE = sp.Dummy("x", real=True), sp.Dummy("x", real=True)
+OTHER = sp.Symbol("x", positive=True)
 WIGGLE = sp.Function("wiggle", real=True)(t)
 WOBBLE = sp.Function("wobble", real=True)(t)
 SWAYS, POSITIVE = sp.Derivative(WIGGLE, t), sp.Function("wiggle", positive=True)(t)
@@ -132,7 +133,9 @@ UNSPEAKABLE: tuple[tuple[sp.Expr, str], ...] = (
     (sp.Dummy("x", real=True), "a name that others may have"),
     (x + sp.Symbol("x", positive=True), "one name"),
     (sp.Symbol("x1", real=True) + sp.Symbol("x_1", real=True), "one name"),
-    (sp.Integral(x + HIDDEN, (HIDDEN, 0, 1)), "two variables of one name"),  # looks like 2 x
+    (sp.Integral(x + HIDDEN, (HIDDEN, 0, 1)), "a name that others may have"),  # looks like 2 x
+    (FirstZero(ALIKE - q, ALIKE), "a name that others may have"),
+    (sp.Integral(x + OTHER, (OTHER, 0, 1)), "two variables of one name"),
     (sp.Lambda(x, 2 * x), "another type"),
     (FirstZero(q), "no 2 parts"),
     (sp.Symbol("pi", positive=True), "no real quantity"),
@@ -271,6 +274,7 @@ MISCALLED: tuple[tuple[Kind, sp.Basic, str], ...] = (
     ),  # 1/t and 2/t
     (Kind.DEFINITION, SlowEquation(f_c, h_0), "no equation"),  # it says what f_c is
     (Kind.CONDITION, Continuous(U_a, h), "no 1 parts"),
+    (Kind.CONDITION, Continuous(initial("U_a")), "no property of a field"),  # it jumps afterwards
     (Kind.MODEL, sp.Le(sp.Abs(U_a), U), "no equation of the model"),  # under no k as U_a + p/k
     (Kind.MODEL, sp.Eq(f_c, 5), "no equation of the model"),  # f_c = 1
     (Kind.MODEL, touching(1 + f_c), "no equation of the model"),  # f_c = 1

@@ -4,13 +4,15 @@ import pytest
 import sympy as sp
 
 from derive.equations import TEXTS, Equation
+from derive.laws import GENERAL
 from derive.rules.algebra import substitute
 from derive.symbols import rate, symbols, t
 from derive.typeset.display import inline, latex
 from derive.written import evaluated, read
 from tests.derive.judgements import equal, given
 
-h_0, u_c, U_a, f_c, T, h, L, tau = symbols("h_0 u_c U_a f_c T h L tau")
+h_0, u_c, U_a, f_c, T, h, L, tau, U_max = symbols("h_0 u_c U_a f_c T h L tau U_max")
+PHI = GENERAL.phi.func
 
 
 @pytest.mark.parametrize(
@@ -31,6 +33,8 @@ def test_text_means_what_it_says(text: str, meaning: sp.Basic):
 
 def test_a_power_of_a_function_of_scaled_time_is_written():
     assert latex(sp.Function("v", real=True)(tau) ** 2) == "v^{2}"
+    assert latex(sp.Function("v_12", real=True)(tau)) == "v_{12}"
+    assert latex(PHI(tau)) == r"\phi{\left(\tau \right)}"
     assert latex(sp.sin(tau) ** 2) == r"\sin^{2}{\left(\tau \right)}"
 
 
@@ -41,6 +45,9 @@ def test_nothing_is_moved():
 @pytest.mark.parametrize(
     ("expr", "on_the_line"),
     [
+        (U_max**2 * f_c, r"f_c \left(\max U_a\right)^{2}"),
+        (sp.Mul(U_max, f_c, evaluate=False), r"\left(\max U_a\right) f_c"),
+        (sp.log(f_c) / f_c, r"\ln{\left(f_c \right)} / f_c"),
         (f_c / rate("u_c"), r"f_c / \left(\mathrm{d}u_c / \mathrm{d}t\right)"),
         (sp.Mul(rate("u_c"), f_c, evaluate=False), r"\left(\mathrm{d}u_c / \mathrm{d}t\right) f_c"),
         (sp.Limit(u_c, t, sp.oo) / f_c, r"\left(\lim_{t \to \infty} u_c\right) / f_c"),

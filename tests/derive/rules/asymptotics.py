@@ -51,7 +51,7 @@ from tests.derive.judgements import (
 u_c, u_a, U_a, h, p, G = symbols("u_c u_a U_a h p G")
 h_0, sigma_c0, sigma_c, f_c, C, T, N, q, b_0 = symbols("h_0 sigma_c0 sigma_c f_c C T N q b_0")
 U, L, R, A, rho, h_star, theta, tau, m = symbols("U L R A rho h_star theta tau m")
-c_1, w_1, s_0 = symbols("c_1 w_1 s_0")
+c_1, c_2, w_1, s_0 = symbols("c_1 c_2 w_1 s_0")
 s, z = sp.Symbol("s", nonnegative=True), sp.Symbol("z", real=True)
 du = rate("u_c")
 
@@ -289,7 +289,7 @@ FAMILIES = (
             lambda: defined(c_1, Drift(sp.S.One, SWAYING + sp.sin(2 * sp.pi * tau) ** 2, *PACE))),
         # phi may turn like |r - 1|^(3/2)
         "a second order of any law": ("for order 2",
-            lambda: defined(c_1, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),
+            lambda: defined(c_2, Drift(sp.Integer(2), PHI(SWAYING), *PACE), ROUGHENS)),
         # it is 0/0 for b_0 = 0
         "a drift at any pace": ("the pace rho",
             lambda: defined(c_1, Drift(sp.S.One, SWAYING, *PACE[:2], b_0), ROUGHENS)),
@@ -312,8 +312,10 @@ FAMILIES = (
             lambda: OrderEquation(sp.S.One)(eq(h, u_c), *expansion_premises())),
         "a second order without names": ("the drift c_2",
             lambda: OrderEquation(sp.Integer(2))(*expansion_premises())),
-        "an oscillation for a drift": ("is constant",
+        "an oscillation for a drift": ("is the term w_1",
             lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
+        "the first drift as the second one": ("is the term c_1",
+            lambda: defined(c_2, term_of(Drift, 1, U_a), ROUGHENS)),
         "a coefficient of what has no period": ("has the period",
             lambda: defined(c_1, term_of(Drift, 1, 2 + sp.exp(-tau)), ROUGHENS)),
         "the drift of another pressure": ("the drift c_1", of_another_pressure),
