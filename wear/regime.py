@@ -46,6 +46,10 @@ _PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
 
 VANISHES = "the roughness vanishes in finite time; the model ends there"
 CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
+TAIL = (
+    "this regime rests on a pressure that falls exponentially with h/sigma, which is not checked "
+    "for a law of one's own"
+)
 
 
 @dataclass(frozen=True)
@@ -114,6 +118,11 @@ class _Case:
             return lambda ratio: Decimal(float(own(float(ratio))))
         found: Callable[..., Any] = getattr(formula, f"{kind}_{law}")
         return found
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Return the notice on a regime without steady contact under a law of the scene's own."""
+        return (TAIL,) if own_laws.is_own(self.scene.contact.law) else ()
 
     def wear_at(self, pressure: float) -> float:
         """Return the wear of one cycle under a constant pressure, mm."""
@@ -189,7 +198,8 @@ def _without_cutoff(case: _Case) -> Asymptote:
         return _steady(case)
     if case.value(formula.gap_at_peak, end) > 0:
         said = "wear approaches this depth, logarithmically slowly, as the roughness vanishes"
-        return _result(case, "saturating", saturation_wear_mm=float(end), notices=(said,))
+        notices = (said, *case.doubts)
+        return _result(case, "saturating", saturation_wear_mm=float(end), notices=notices)
     return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(VANISHES,))
 
 
@@ -280,6 +290,7 @@ def _constant_roughness(case: _Case) -> Asymptote:
             pressure_MPa=0.0,
             log_coefficient_mm=float(coefficient) if applies else None,
             offset_mm=float(offset) if applies else None,
+            notices=case.doubts,
         )
     if gap < 0:
         pressure = case.numbers["p_max"]

@@ -60,7 +60,7 @@ def _text(found: Equation) -> str:
     for definition in found.definitions:
         lines += ["", f"{definition.text}:", "", sp.pretty(definition.relation, **style)]
     if found.printed and not found.agrees:
-        lines += ["", "as printed in the note (does not hold):", ""]
+        lines += ["", "as printed in the note (not equivalent):", ""]
         lines += [sp.pretty(claim, **style) for claim in found.printed]
     if found.remark:
         lines += ["", found.remark]

@@ -120,7 +120,7 @@ def initial_state() -> Finding:
     rigid = sp.limit(gap, k, sp.oo).subs(U_a, 0)
     evidence = f"(1), (2), (6) give h(0) - h_0 = {sp.expand(gap)} at t = 0"
     if rigid == 0 and not is_zero(gap):
-        needs = "zero only for a rigid support and U_a(0) = 0"
+        needs = "zero for a rigid support and U_a(0) = 0, in general not"
         return Finding(Verdict.CONDITIONAL, f"{evidence}; {needs}")
     return _finding(is_zero(gap), evidence)
 

@@ -9,7 +9,8 @@ Overview
     For the share y = p/p_max it is y = phi(a + s y), with the ratio a of closure and roughness
     on an undeflected support and its softness s.  The error of a Newton step is proportional to
     the distance of the law from its tangent, which has one sign on either side of the law's
-    inflection: the iteration does not cross the root.
+    inflection: between bounds without an inflection the iteration crosses the root once at most,
+    if a step beyond a bound is brought back to it.
 Key results
     equation            the equation for p
     pressure_root       the three inequalities for existence and uniqueness of its root

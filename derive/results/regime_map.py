@@ -4,7 +4,9 @@ Overview
     Without cutoff the roughness growth f_c decides, and for f_c < 0 the gap at the wear at which
     the roughness would vanish; with the cutoff the threshold of f_c is 1/3 instead of 0.  The
     conditions are relations between data, so that the map can be evaluated for numbers; exactly
-    one row holds for each set of data.  The derivations of the rows rest on these conditions.
+    one row holds for each set of data.  The derivations of the rows rest on these conditions; the
+    logarithmic and the saturating row on a law that falls exponentially, too, as those of the
+    package do.
 Key results
     REGIMES    the rows of the map
     regime     the row that holds for given data

@@ -28,6 +28,7 @@ _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
 _TAU, _LAW = symbol("tau"), GENERAL.phi.func.__name__
+_LATER = t + symbol("T")
 _OPEN = (sp.Limit, sp.Integral)
 """Heads whose scope has no end of its own in print."""
 _SETTINGS = {
@@ -82,7 +83,14 @@ class _NotePrinter(LatexPrinter):
         return str(super()._print_Add(expr, order))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product; SymPy calls this with powers too."""
+        """Print a product; SymPy calls this with powers too.
+
+        The factor t + T comes before all but numbers: ``u_c (t + T)`` is the wear at that time.
+        """
+        if expr.is_Mul and _LATER in expr.args:
+            numbers = [factor for factor in expr.args if factor.is_number]
+            others = [factor for factor in expr.args if not factor.is_number and factor != _LATER]
+            expr = sp.Mul(*numbers, _LATER, *others, evaluate=False)
         whole = sp.Mul(*_factors(expr), evaluate=False) if self._small else expr
         above, below = sp.fraction(whole, exact=True)
         if below == 1:

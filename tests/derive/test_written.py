@@ -38,6 +38,12 @@ def test_a_power_of_a_function_of_scaled_time_is_written():
     assert latex(sp.sin(tau) ** 2) == r"\sin^{2}{\left(\tau \right)}"
 
 
+def test_a_product_with_the_next_time_is_not_a_value_at_that_time() -> None:
+    for factor in (u_c, rate("u_c"), f_c):
+        assert latex(factor * (t + T)) == rf"\left(t + T\right) {latex(factor)}"
+        assert inline(2 * factor * (t + T)).startswith(r"2 \left(t + T\right) ")
+
+
 def test_nothing_is_moved():
     assert latex(read("u_c - h_0 + 4 - 2 U_a/f_c")) == r"u_c - h_0 + 4 - \frac{2 U_a}{f_c}"
 

@@ -19,6 +19,7 @@ from tests.programs import python
 from wear import own_laws
 from wear.binding import bind
 from wear.equation import roundoff
+from wear.regime import TAIL
 
 ALGEBRAIC = "(1 - (r - 2)/sqrt(2 + (r - 2)^2))/2"  # no other test uses it: derived here
 ROOT = Path(__file__).parents[2]
@@ -35,6 +36,14 @@ def home(tmp_path_factory):
 
 def with_law(text: str, name: str = "section4") -> wear.Scene:
     return wear.load_scene(name).with_({"contact.law": {"phi": text}})
+
+
+@pytest.mark.parametrize("name", ["f-zero", "roughness-vanishing"])
+def test_a_regime_that_rests_on_an_exponential_law_says_so(name):
+    """Under a pressure that falls like a power, wear at constant roughness grows like one."""
+    slow = wear.asymptote(with_law("(1 - (r - 2)/sqrt(1 + (r - 2)^2))/2", name))
+    assert TAIL in slow.notices
+    assert TAIL not in wear.asymptote(name).notices
 
 
 @pytest.mark.parametrize("name", ["section4", "section3", "soft-support"])
