@@ -16,7 +16,7 @@ from derive.typeset.reading import in_latex
 MEANING = {
     Status.DEFINITION: "taken as the model, or a name given to something",
     Status.DERIVED: "every step from the governing equations is proved",
-    Status.CORRECTED: "does not hold as printed; the form that does is derived and shown",
+    Status.CORRECTED: "the form shown replaces a printed one that is not equivalent to it",
 }
 
 
@@ -79,7 +79,7 @@ def _entry(found: Equation) -> str:
         needed = dict.fromkeys(condition.text for condition in found.conditions)
         parts.append(f"If {', '.join(needed)}.")
     if found.printed and not found.agrees:
-        parts += ["As printed, which does not hold:", _block(found.printed_latex)]
+        parts += ["As printed, which is not equivalent:", _block(found.printed_latex)]
     if found.remark:
         parts.append(f"{_capitalised(found.remark)}.")
     return "\n\n".join(parts)
