@@ -258,7 +258,7 @@ def _conclude(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypoth
     union = (h for premise in premises for h in premise.hypotheses)
     kept = (h for h in union if h not in made.discharges)
     hypotheses = tuple(dict.fromkeys((*kept, *made.adds)))
-    _require_language(made.claim.relation, *hypotheses)
+    _require_language_of(made.claim, hypotheses, premises)
     for premise in filter(_has_slope_over_data, premises):
         if any(h.kind is not Kind.DEFINITION for h in {*hypotheses} - {*premise.hypotheses}):
             raise RuleError(f"missing premise: {premise.relation} under further conditions")
@@ -277,8 +277,19 @@ def _has_slope_over_data(premise: Judgement) -> bool:
     return any(d.expr.is_Symbol for relation in said for d in relation.atoms(sp.Derivative))
 
 
-def _require_language(*parts: object) -> None:
-    """Refuse expressions outside the language, and two quantities of one name."""
+def _require_language_of(
+    claim: Claim, hypotheses: tuple[Hypothesis, ...], premises: tuple[Judgement, ...]
+) -> None:
+    """Refuse a conclusion outside the language; what premises suppose was in it when they were
+    made."""
+    known = frozenset(h for premise in premises for h in premise.hypotheses)
+    new = (h for h in hypotheses if h not in known)
+    _require_language(claim.relation, *new, known=[h.relation for h in hypotheses if h in known])
+
+
+def _require_language(*parts: object, known: Iterable[sp.Basic] = ()) -> None:
+    """Refuse expressions outside the language, and two quantities of one name; ``known``
+    expressions are in it."""
     said = [h for h in parts if type(h) is Hypothesis and type(h.kind) is Kind]
     expressions = [part for part in parts if isinstance(part, sp.Basic)]
     if len(said) + len(expressions) < len(parts):
@@ -286,6 +297,7 @@ def _require_language(*parts: object) -> None:
     expressions += [hypothesis.relation for hypothesis in said]
     if found := next(filter(None, map(fault, expressions)), None):
         raise RuleError(f"no claim: {found}")
+    expressions += known
     fields = frozenset[sp.Expr]().union(*map(in_time, expressions))
     if len({field.func for field in fields}) < len(fields):
         raise RuleError("no claim: a field of time is one of scaled time, too")
@@ -301,7 +313,7 @@ def replay_fault(judgement: Judgement) -> str | None:
     if type(judgement) is not Judgement or not judgement.is_made:
         return "no rule made it"
     try:
-        _require_language(judgement.claim.relation, *judgement.hypotheses)
+        _require_language_of(judgement.claim, judgement.hypotheses, judgement.parents)
         made = _apply(judgement.rule, judgement.parents)
     except (ValueError, TypeError, AttributeError) as refusal:
         return str(refusal) or type(refusal).__name__
