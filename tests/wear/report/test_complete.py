@@ -15,7 +15,7 @@ from wear.report.text import inline, line
 _GREEK = "alpha|beta|theta|kappa|lambda|mu|nu|eta|zeta|rho|sigma|tau|omega|varepsilon|ell|phi"
 _UPRIGHT = re.compile(
     r"\\(?:text|operatorname)\{[^{}]*\}|(?<!_\{)\\mathrm\{[^{}]*\}"
-    r"|\\(?:begin|end)\{\w+\}|\\(?:left|right|[bB]igg?[lr]?)\b"
+    r"|\\(?:begin|end)\{\w+\}|\\(?:left|right|[bB]igg?[lr]?)\b|\bo_\{[^{}]*\\to[^{}]*\}"
 )
 _SYMBOL = re.compile(
     r"\\(?:max|min) U_a|\\langle U_a ?\\rangle"
