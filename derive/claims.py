@@ -105,6 +105,11 @@ class Term(sp.Expr):
     words = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
 
     @property
+    def name(self) -> str:
+        """Return its name, ``c_1`` for the first drift."""
+        return f"{self.letter}_{self.args[0]}"
+
+    @property
     def power(self) -> int:
         """Return n for a coefficient of the dimension of roughness^n."""
         return int(self.args[0])
@@ -264,12 +269,8 @@ class Asymptotic(Claim):
 
     @property
     def relation(self) -> sp.Basic:
-        return sp.Eq(self.lhs, self.rhs + self.rest, evaluate=False)
-
-    @property
-    def rest(self) -> sp.Expr:
-        """Return the term that is negligible."""
-        return landau_o(self.order, self.variable, self.point)
+        rest = landau_o(self.order, self.variable, self.point)
+        return sp.Eq(self.lhs, self.rhs + rest, evaluate=False)
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Claim:
         return replace(self, lhs=change(self.lhs), rhs=change(self.rhs))

@@ -26,7 +26,7 @@ from sympy.core.function import AppliedUndef
 
 from .claims import Term, claim_of, mapped
 from .hypotheses import Hypothesis, Kind
-from .kernel import Judgement, chain, domain, step_key
+from .kernel import Judgement, StepKey, chain, domain, step_key
 from .language import defined_by, names
 from .laws import written_out
 from .parts import bound_in
@@ -174,7 +174,12 @@ class Equation:
     @property
     def steps(self) -> tuple[Judgement, ...]:
         """Return the chain of statements from the governing equations to this one, each once."""
-        return tuple({step_key(step): step for step in chain(*self.statements)}.values())
+        return tuple(self.keyed_steps.values())
+
+    @property
+    def keyed_steps(self) -> dict[StepKey, Judgement]:
+        """Return the same chain by the keys of its steps."""
+        return {step_key(step): step for step in chain(*self.statements)}
 
     @cached_property
     def conditions(self) -> tuple[Hypothesis, ...]:
@@ -284,8 +289,7 @@ def _is_coefficient(relation: sp.Basic) -> bool:
     """Return whether a relation defines c_n or w_n, by this name, as a term of the expansion."""
     if not isinstance(relation, sp.Equality) or not isinstance(relation.rhs, Term):
         return False
-    name, term = relation.args
-    return str(name.func if name.args else name) == f"{term.letter}_{term.args[0]}"
+    return relation.rhs.name in _names([relation.lhs])
 
 
 def _names(relations: Iterable[sp.Basic]) -> set[str]:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 from .catalogue import all_equations, equation
 from .check import Check, condition_checks, model_checks, step_checks
 from .equations import Equation, Status
-from .kernel import Judgement, StepKey, chain, step_key
+from .kernel import Judgement, StepKey, step_key
 from .rules.assumption import Assume
 
 
@@ -95,7 +95,7 @@ def tasks(equations: Sequence[Equation]) -> list[Task]:
     seen: set[StepKey] = set()
     result = []
     for entry in equations:
-        keyed = {step_key(step): step for step in chain(*entry.statements)}
+        keyed = entry.keyed_steps
         new = {key: step for key, step in keyed.items() if key not in seen}
         seen |= new.keys()
         result.append(Task(entry, tuple(keyed), new, stated & new.keys()))

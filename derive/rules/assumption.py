@@ -145,9 +145,9 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
     now = at_an_instant(value)
     if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    known = re.fullmatch("([cw])_([1-9])", str(name.func if name.args else name))
-    if isinstance(value, Term) and known and known.groups() != (value.letter, str(value.args[0])):
-        raise RuleError(f"missing premise: {name} is the term {value.letter}_{value.args[0]}")
+    said = str(name.func if name.args else name)
+    if isinstance(value, Term) and re.fullmatch("[cw]_[1-9]", said) and said != value.name:
+        raise RuleError(f"missing premise: {name} is the term {value.name}")
     if value != _MEANT.get(name, value):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
     expr = inserted(now, tuple(filter(lasts, premises)))
