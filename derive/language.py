@@ -62,7 +62,23 @@ _MARKS = str.maketrans("", "", " {}")
 _FACES = frozenset(quantity.latex.translate(_MARKS) for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *accepted_latex_functions,
-    *("pi", "oo", "zoo", "nan", "I", "sqrt", "lim", "ln", "true", "false", "phi", "o", "e", "W"),
+    *(
+        "pi",
+        "oo",
+        "zoo",
+        "nan",
+        "I",
+        "E",
+        "sqrt",
+        "lim",
+        "ln",
+        "true",
+        "false",
+        "phi",
+        "o",
+        "e",
+        "W",
+    ),
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))

@@ -105,7 +105,7 @@ _TABLE = (
     Quantity("sigma_s", r"\sigma'", "mm", "roughness, as variable of integration", NONNEGATIVE),
     # long-time expansion
     Quantity("tau", r"\tau", "1", "time in cycles, t/T", NONNEGATIVE),
-    Quantity("s_0", "s_0", "mm", "initial offset of the roughness", REAL),
+    Quantity("s_0", "s_0", "mm", "constant of integration of the averaged roughness", REAL),
     Quantity("m", "m", "mm", "roughness without its oscillation in a cycle", POSITIVE),
     Quantity("rho", r"\rho", "mm", "asymptotic growth of the roughness per cycle", POSITIVE),
     Quantity("c_1", "c_1", "mm", "drift at order 1/m", REAL),
@@ -148,7 +148,7 @@ DATA = frozenset(
 EXTREMES = frozenset(["U_max", "U_min"])
 """The largest and the smallest load, which no definition may fix."""
 
-CLOCKS = frozenset(["t", "tau", "N", "m", "z", "E"])
+CLOCKS = frozenset(["t", "tau", "N", "m", "z", "xi"])
 """Symbols that vary in time; any other symbol is a constant."""
 
 QUANTITIES = MappingProxyType({quantity.name: quantity for quantity in _TABLE})

@@ -322,10 +322,15 @@ def _in_time(relations: Relations, imposed: Relations) -> Relations:
     named = sp.Tuple(*relations).atoms(AppliedUndef, Term)
     if any(isinstance(name, Term) or name.args == (_TAU,) for name in named):
         relations = tuple(map(_unscaled, relations))
-    for given in imposed:
-        if isinstance(given, sp.Eq) and given.lhs.is_Symbol and t in given.rhs.free_symbols:
-            relations = tuple(_inserted(given, relation) for relation in relations)
+    rest = imposed
+    while (given := next(filter(_defines_clock, rest), None)) is not None:
+        relations = tuple(_inserted(given, relation) for relation in relations)
+        rest = tuple(_inserted(given, relation) for relation in rest if relation is not given)
     return relations
+
+
+def _defines_clock(relation: sp.Basic) -> bool:
+    return isinstance(relation, sp.Eq) and relation.lhs.is_Symbol and t in relation.rhs.free_symbols
 
 
 def _inserted(given: sp.Eq, relation: sp.Basic) -> sp.Basic:

@@ -96,10 +96,10 @@ _inverse = Solve(_grown)(Lambert(_w)(Insert(_claim)(time_smooth)))
 static_wear_smooth = Solve(u_c)(substitute(time_smooth, _inverse), name="wear at a time, f_c = 0")
 """The wear at a time, for f_c = 0."""
 
-z, E = sp.symbols("z E", real=True)
-_argument, _exponent = defined(z, -2 * beta / sigma), defined(E, z - 2 * x_inf)
+z, xi = sp.symbols("z xi", real=True)
+_argument, _exponent = defined(z, -2 * beta / sigma), defined(xi, z - 2 * x_inf)
 _bounded = sp.Add(1, -(z * sp.exp(-z) * sp.Ei(z)))
-_scaled = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(E) * _bounded)
+_scaled = sp.Eq(sp.exp(-2 * x_inf) * sp.Add(*primitive(sigma)), sigma * sp.exp(xi) * _bounded)
 static_solution_scaled = (
     Insert(_scaled)(_exponent, _argument, moving, name="scaled primitive"),
     _exponent,
@@ -107,6 +107,6 @@ static_solution_scaled = (
 )
 """The primitive of exp(-2 x_inf - 2 beta/sigma), without factors that overflow.
 
-exp(-2 x_inf) and Ei(z) overflow where their product is finite.  E = ln(p_max/p - 1) and z do not
+exp(-2 x_inf) and Ei(z) overflow where their product is finite.  xi = ln(p_max/p - 1) and z do not
 overflow, and the last factor is a bounded function of z, about -1/z for large z.
 """

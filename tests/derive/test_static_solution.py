@@ -80,10 +80,10 @@ def test_cycles_on_a_compliant_support() -> None:
 
 def test_the_scaled_form_equals_the_plain_one_where_both_can_be_evaluated() -> None:
     claim = static_solution.static_solution_scaled[0].claim
-    z, E, sigma = sp.Symbol("z", real=True), sp.Symbol("E", real=True), symbols("sigma")[0]
+    z, xi, sigma = sp.Symbol("z", real=True), sp.Symbol("xi", real=True), symbols("sigma")[0]
     for argument, limit in ((-3, 2), (5, -1), (-40, 4), (60, -20)):
         size = sp.Rational(7, 10000)
         known = {sigma: size, x_inf: sp.Integer(limit), beta: -argument * size / 2}
         left = claim.lhs.subs(known)
-        right = claim.rhs.subs({z: argument, E: argument - 2 * limit}).subs(known)
+        right = claim.rhs.subs({z: argument, xi: argument - 2 * limit}).subs(known)
         assert abs(sp.N(left / right - 1, 30)) < 1e-28
