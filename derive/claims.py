@@ -79,16 +79,18 @@ class HasValue(Predicate):
 
 
 class SlowEquation(Predicate):
-    """m is the roughness without its oscillation, in the sense of ``Term``, where s_0 is the
-    constant of integration; ``SlowEquation(m, s_0)``."""
+    """m is s without its oscillation, in the sense of ``Term``, and s_0 is the constant of its
+    integration, which leaves powers of m and ln(m/rho) alone; ``SlowEquation(m, s_0)``."""
 
     def _sympystr(self, printer: sp.printing.printer.Printer) -> str:
         m, s_0 = map(printer.doprint, self.args)
-        return f"d{m}/dtau = rho (1 + c_1/{m} + ...), with {s_0} for its start"
+        whole = f"int d{m}/(1 + c_1/{m} + ...)"
+        return f"rho tau + {s_0} = {whole} = {m} - c_1 log({m}/rho) + ..."
 
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
-        m, _ = map(printer.doprint, self.args)
-        return rf"\mathrm{{d}}{m} / \mathrm{{d}}\tau = \rho \left(1 + c_1 / {m} + \dots\right)"
+        m, s_0 = map(printer.doprint, self.args)
+        whole = rf"\int \mathrm{{d}}{m} / \left(1 + c_1 / {m} + \dots\right)"
+        return rf"\rho \tau + {s_0} = {whole} = {m} - c_1 \ln\left({m} / \rho\right) + \dots"
 
 
 class Term(sp.Expr):
@@ -102,7 +104,10 @@ class Term(sp.Expr):
     is_commutative = True
     is_real = True
     letter = ""
-    words = "sigma = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...)"
+    words = (
+        "s = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...), "
+        "which solves ds/dtau = rho F/F(oo) for F in brackets"
+    )
 
     @property
     def name(self) -> str:

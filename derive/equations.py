@@ -49,10 +49,13 @@ TEXTS: Mapping[str, Mapping[str, str]] = {
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 EXPANSION = (
-    r"\bar{\sigma} = m + w_1 / m + w_2 / m^{2} + \dots",
+    r"s = m + w_1 / m + w_2 / m^{2} + \dots",
     r"\mathrm{d}m / \mathrm{d}\tau = \rho \left(1 + c_1 / m + \dots\right)",
+    r"\mathrm{d}s / \mathrm{d}\tau = \rho F(s) / F(\infty)",
 )
-"""The long-time expansion that defines its coefficients, in LaTeX."""
+"""The long-time expansion that defines its coefficients, for a law F, in LaTeX."""
+
+_LAW = sp.Symbol("F(s)")
 
 Proved = Judgement | tuple[Judgement, ...]
 """The proof of an equation: a judgement, or those of a system."""
@@ -168,7 +171,11 @@ class Equation:
         long-time expansion that expansion."""
         formulas: list[str] = []
         for relation in (h.relation for h in self.definitions):
-            formulas += EXPANSION if _is_coefficient(relation) else [latex(presentable(relation))]
+            if _is_coefficient(relation):
+                law = latex(presentable(sp.Eq(_LAW, relation.rhs.args[1], evaluate=False)))
+                formulas += [*EXPANSION, law]
+            else:
+                formulas.append(latex(presentable(relation)))
         return tuple(dict.fromkeys(formulas))
 
     @property

@@ -56,7 +56,7 @@ class Hypothesis:
 
     >>> f_c = sp.Symbol("f_c")
     >>> SMOOTH_PIN.text, ROUGHENING.text, Hypothesis(f_c < 2).text
-    ('smooth pin', 'the bearing roughens as it wears', 'f_c < 2')
+    ('smooth pin', 'wear of the bearing roughens it', 'f_c < 2')
     """
 
     relation: sp.Basic
@@ -91,7 +91,7 @@ class Hypothesis:
         """Return it as one types it, after its words if it has some.
 
         >>> ROUGHENING.stated
-        'the bearing roughens as it wears: f_c > 0'
+        'wear of the bearing roughens it: f_c > 0'
         """
         return f"{self.words}: {self._formula}" if self.words else self._formula
 
@@ -100,7 +100,7 @@ class Hypothesis:
         """Return its formula as plain text, or its words if it is a setting, an equation or long.
 
         >>> ROUGHENING.brief, BOUNDED_LOAD.brief, KEPT.brief
-        ('f_c > 0', '|U_a| <= U', 'wear does not change the roughness')
+        ('f_c > 0', '|U_a| <= U', 'wear of the bearing does not change its roughness')
         """
         long = isinstance(self.relation, sp.Equality) or len(self._formula) > _SHORT
         return self.text if self.is_setting or long else self._formula
@@ -164,7 +164,8 @@ _SETTINGS = MappingProxyType(
         RIGID.relation: "rigid support",
         model.CLOSURE[True]: "wear of the pin opens the gap",
         **{model.at_every_closure(law): "no loss of contact" for law in (TANH, GENERAL)},
-        **{h.relation: "no cross coupling of roughness" for h in UNCOUPLED},
+        UNCOUPLED[0].relation: "roughness of the pin unaffected by wear of the bearing",
+        UNCOUPLED[1].relation: "roughness of the bearing unaffected by wear of the pin",
         PERIODIC.relation: "load of period T",
         CONSTANT.relation: "constant load",
         DIFFERENTIABLE.relation: "differentiable load",
@@ -175,11 +176,11 @@ _OTHERS = MappingProxyType(
     {
         **model.WORDS,
         **dict.fromkeys(model.START, "initial condition, Eq. (6)"),
-        ROUGHENING.relation: "the bearing roughens as it wears",
-        KEPT.relation: "wear does not change the roughness",
-        SMOOTHING.relation: "the bearing smoothens as it wears",
-        NOT_SMOOTHING.relation: "wear does not smoothen the bearing",
-        SLOPED.relation: "the roughness changes with wear",
+        ROUGHENING.relation: "wear of the bearing roughens it",
+        KEPT.relation: "wear of the bearing does not change its roughness",
+        SMOOTHING.relation: "wear of the bearing smoothens it",
+        NOT_SMOOTHING.relation: "wear of the bearing does not smoothen it",
+        SLOPED.relation: "wear of the bearing changes its roughness",
         BOUNDED_LOAD.relation: "the load is bounded by U",
         UNSATURATED.relation: "the pressure is between 0 and its largest value",
         OPEN_GAP.relation: "the mean surfaces do not coincide",

@@ -98,6 +98,7 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     restricts no other quantity, and need not be shown.  RuleError if no relation expresses the
     condition, or if the name is not new.
     """
+    _require_own_terms(relation)
     name, value = relation.args
     slope: sp.Expr = sp.S.One
     if not name.is_Symbol:
@@ -128,6 +129,15 @@ def _supposed(relation: sp.Equality, premises: tuple[Judgement, ...]) -> tuple[H
     return tuple(map(Hypothesis, goals))
 
 
+def _require_own_terms(relation: sp.Equality) -> None:
+    """Refuse to define c_n or w_n as anything but the term of the expansion with this name."""
+    left, right = relation.args
+    for name in defined_by(relation):
+        own = str(left.func if left.args else left) == name == getattr(right, "name", "")
+        if re.fullmatch("[cw]_[1-9]", name) and not (own and isinstance(right, Term)):
+            raise RuleError(f"missing premise: {name} is a term of the expansion")
+
+
 def _require_unsaid(
     names: set[sp.Expr], relation: sp.Equality, premises: tuple[Judgement, ...]
 ) -> None:
@@ -145,9 +155,6 @@ def _require_name(name: sp.Expr, value: sp.Expr, premises: tuple[Judgement, ...]
     now = at_an_instant(value)
     if not name.is_Symbol or name.name in _GIVEN or now.has(name):
         raise RuleError(f"missing premise: {name} is a new name")
-    said = str(name.func if name.args else name)
-    if isinstance(value, Term) and re.fullmatch("[cw]_[1-9]", said) and said != value.name:
-        raise RuleError(f"missing premise: {name} is the term {value.name}")
     if value != _MEANT.get(name, value):
         raise RuleError(f"missing premise: {name} is {_MEANT[name]}")
     expr = inserted(now, tuple(filter(lasts, premises)))

@@ -1,9 +1,10 @@
 """Averaging under a sine load: the terms of the long-time expansion.
 
 Overview
-    With sigma = sigma_c0 + f_c u_c the rate is a series in 1/sigma with periodic coefficients.
-    Its formal solution is ``sigma = m + w_1/m + w_2/m^2 + ...``, ``dm/dtau = rho (1 + c_1/m +
-    ...)``.  Premises define the names of its coefficients, and m and s_0.
+    With s = sigma_c0 + f_c u_c the pressure is a series F(s) in 1/s with periodic coefficients.
+    The formal solution of ``ds/dtau = rho F/F(oo)``, which is the equation of the roughness if rho
+    is f_c u_cum, is ``s = m + w_1/m + w_2/m^2 + ...``, ``dm/dtau = rho (1 + c_1/m + ...)``.
+    Premises define the names of its coefficients, and m and s_0.
 Key results
     term_of              the definition of c_n or w_n, for a pressure
     OrderEquation        the equation of c_n and w_n from the terms with 1/m^n
@@ -97,8 +98,8 @@ class OrderEquation(Theorem):
 
     order: sp.Integer
     words = (
-        "Insert the expansion into the rate of the roughness, which is proportional to {0}, with "
-        "{others}, and compare the terms of order {order} in 1/m."
+        "Insert the expansion into ds/dtau = rho F/F(oo), with {0} for F, and with {others}, "
+        "and compare the terms of order {order} in 1/m."
     )
     source = "Sanders, Verhulst, Murdock, 2007"
     premise_names = ("the pressure",)

@@ -14,6 +14,7 @@ import sympy as sp
 from ..claims import Asymptotic
 from ..hypotheses import LOAD, PERIODIC, SINE
 from ..kernel import Conclusion, Judgement, RuleError
+from ..laws import r
 from ..parts import nonnegative, nonzero, positive
 from ..reals import holds
 from ..symbols import symbols, t
@@ -46,13 +47,14 @@ class FirstOrder(Theorem):
     ``t (du/dt - R) - F'(l) a/R -> 0``, as u/t tends to R and F is differentiable at l.
     """
 
-    words = "Expand the contact law about the limit of the closure ratio, with {all}."
+    words = "Expand the rate in {0} about the limit of the ratio on which it rests, with {others}."
     source = "Taylor's theorem; u/t -> R by L'Hopital's rule"
     premise_names = ("the rate", "the deviation", "the limit of the ratio", "the limit of the rate")
 
     def prove(self, *premises: Judgement) -> Conclusion:
         law, deviation, ratio, speed, *_ = premises
-        y, (u, rate) = sp.Dummy(real=True), rate_law(law)
+        u, rate = rate_law(law)
+        y = sp.Dummy(real=True) if rate.has(r) else r  # which readers of the slope see
         approach, x, steady = map(limit_in_time, (deviation, ratio, speed))
         function = in_terms_of(rate, x.expr, y)
         known = steady.expr == sp.Derivative(u, t) and constant(sp.Tuple(function, x.value))
@@ -120,7 +122,7 @@ class LogarithmicGrowth(Theorem):
 
     scale: sp.Expr
     words = (
-        "Separate the variables of {0}: the exponential of the wear grows equally in every cycle."
+        "Separate the variables of {0}: in the end the exponential grows equally in every cycle."
     )
     source = "DLMF 10.32.1; Cesaro's theorem"
     premise_names = ("the limit",)

@@ -49,7 +49,7 @@ class Diverges(Theorem):
     """
 
     expr: sp.Expr
-    words = "By {0}, the wear grows without bound, and with it {expr}."
+    words = "By {0}, {expr} grows without bound."
     premise_names = ("the growth",)
 
     def prove(self, *premises: Judgement) -> Conclusion:
@@ -144,8 +144,8 @@ class Unbounded(Theorem):
     """
 
     words = (
-        "A positive, continuous rate {0} under a bounded load: if the wear were bounded, the rate "
-        "would be bounded away from zero."
+        "The rate in {0} is positive and continuous, and all else in it is bounded: if the "
+        "solution were bounded, its rate would be bounded away from zero."
     )
     source = "extreme value theorem"
     premise_names = ("the rate",)
@@ -203,7 +203,7 @@ class AtInfinity(Theorem):
 
     claim: sp.Equality
     small: sp.Expr
-    words = "By {0}, {small} tends to zero: expand in it, uniformly in bounded loads."
+    words = "By {0}, {small} tends to zero: expand in it, uniformly in bounded fields."
     source = "Taylor's theorem"
     premise_names = ("the growth",)
 

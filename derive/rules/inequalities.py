@@ -92,8 +92,8 @@ class LogarithmicSlope(Theorem):
     b: sp.Expr
     bound: sp.Expr
     words = (
-        "The mean value theorem for the logarithm of the contact law, whose slope is bounded by "
-        "{bound}."
+        "The mean value theorem for the logarithm of a function; the slope of the logarithm is "
+        "bounded by {bound}."
     )
     source = "mean value theorem"
 

@@ -84,7 +84,7 @@ def _at_one_time(expr: sp.Basic) -> bool:
 class Vanishes(Theorem):
     """``-B/s <= e <= B/s`` with constant B, and ``s -> oo``: ``e -> 0``."""
 
-    words = "The bounds in {0} tend to zero, since the roughness grows by {others}."
+    words = "The bounds in {0} tend to zero, by {others}."
     source = "squeeze theorem"
     premise_names = ("the bounds", "the growth")
 

@@ -51,7 +51,7 @@ PRESSURE = symbol("p")
 class Follows(Theorem):
     """The only root of ``p = R(p, u, load)`` is continuous, where ``p - R`` increases in p."""
 
-    words = "The pressure is the only root of {0}, and a continuous function of wear and load."
+    words = "The pressure is the only root of {0}, and continuous, as all else in it is."
     source = "implicit function theorem"
     premise_names = ("the equation of the pressure",)
 
@@ -146,7 +146,9 @@ class Lambert(Theorem):
     """``w e^w = x`` with ``w >= 0`` gives ``w = W(x)``, as ``w e^w`` increases there."""
 
     argument: sp.Expr
-    words = "Lambert's function solves {0}: it has the form w e^w = x with w > 0, so that w = W(x)."
+    words = (
+        "Lambert's function solves {0}: it has the form w e^w = x with w >= 0, so that w = W(x)."
+    )
     source = "Corless et al., Adv. Comput. Math. 5 (1996) 329"
     premise_names = ("the equation",)
 

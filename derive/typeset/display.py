@@ -27,8 +27,9 @@ from ..symbols import EXTREMES, QUANTITIES, symbol, t
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
+_WORD = re.compile(r"[A-Za-z]{2,}")
 _TAU, _LAW = symbol("tau"), GENERAL.phi.func.__name__
-_LATER = t + symbol("T")
+_LATER = frozenset((t, symbol("T")))
 _OPEN = (sp.Limit, sp.Integral)
 """Heads whose scope has no end of its own in print."""
 _SETTINGS = {
@@ -52,11 +53,19 @@ class _NotePrinter(LatexPrinter):
         super().__init__(_SETTINGS)
         self._small = small
 
+    def _print(self, expr: Any, **options: Any) -> str:
+        return r"\mathrm{e}" if expr is sp.E else str(super()._print(expr, **options))
+
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
         quantity = QUANTITIES.get(expr.name)
         if quantity is not None:
             return quantity.latex
-        return str(super()._print_Symbol(expr, style))
+        return self._own_name(expr.name)
+
+    def _own_name(self, name: str) -> str:
+        """Print a name of one's own, upright if it has several letters, unlike a product."""
+        shown = str(super()._print_Symbol(sp.Symbol(name)))
+        return _WORD.sub(r"\\mathrm{\g<0>}", shown, count=1) if _WORD.match(shown) else shown
 
     def _print_Function(self, expr: sp.Function, exp: str | None = None) -> str:
         name = expr.func.__name__
@@ -68,7 +77,7 @@ class _NotePrinter(LatexPrinter):
             if expr.args != (t,):
                 body += f"({self._print(expr.args[0])})"
         elif isinstance(expr, AppliedUndef) and expr.args == (_TAU,) and name != _LAW:
-            body = str(super()._print_Symbol(sp.Symbol(name)))  # a field of scaled time
+            body = self._own_name(name)  # a field of scaled time
         else:
             return str(super()._print_Function(expr, exp))
         return body if exp is None else rf"{body}^{{{exp}}}"
@@ -85,12 +94,11 @@ class _NotePrinter(LatexPrinter):
     def _print_Mul(self, expr: sp.Expr) -> str:
         """Print a product; SymPy calls this with powers too.
 
-        The factor t + T comes before all but numbers: ``u_c (t + T)`` is the wear at that time.
+        Powers of t + T come before all but numbers: ``u_c (t + T)`` is the wear at that time.
         """
-        if expr.is_Mul and _LATER in expr.args:
-            numbers = [factor for factor in expr.args if factor.is_number]
-            others = [factor for factor in expr.args if not factor.is_number and factor != _LATER]
-            expr = sp.Mul(*numbers, _LATER, *others, evaluate=False)
+        if expr.is_Mul and any(map(_is_later, expr.args)):
+            ordered = sorted(expr.args, key=lambda e: (not e.is_number, not _is_later(e)))
+            expr = sp.Mul(*ordered, evaluate=False)
         whole = sp.Mul(*_factors(expr), evaluate=False) if self._small else expr
         above, below = sp.fraction(whole, exact=True)
         if below == 1:
@@ -107,7 +115,8 @@ class _NotePrinter(LatexPrinter):
         if not self._small:
             return rf"\frac{{{over}}}{{{under}}}"
         divides = (below.is_Rational and not below.is_Integer) or isinstance(below, sp.Derivative)
-        over = rf"\left({over}\right)" if above.is_Add or above.has(*_OPEN) else over
+        open_ = above.is_Add or above.has(*_OPEN) or any(map(_is_extreme, above.free_symbols))
+        over = rf"\left({over}\right)" if open_ else over
         closed = not (below.is_Add or below.is_Mul or divides or below.has(*_OPEN))
         return f"{over} / {under}" if closed else rf"{over} / \left({under}\right)"
 
@@ -136,9 +145,6 @@ class _NotePrinter(LatexPrinter):
 
     def _print_ExpBase(self, expr: sp.Expr, exp: str | None = None) -> str:
         return str(self._do_exponent(rf"\mathrm{{e}}^{{{inline(expr.args[0])}}}", exp))
-
-    def _print_Exp1(self, expr: sp.Expr, exp: str | None = None) -> str:
-        return str(self._do_exponent(r"\mathrm{e}", exp))
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
         """Print branches with fractions of full size; small ones resemble exponents."""
@@ -178,6 +184,12 @@ class _NotePrinter(LatexPrinter):
         above = rf"{sign}{power}{self._print(expr.expr)}"
         below = rf"{sign}{self._print(variable)}{power}"
         return f"{above} / {below}" if self._small else rf"\frac{{{above}}}{{{below}}}"
+
+
+def _is_later(factor: sp.Expr) -> bool:
+    """Return whether a factor is a power of t + T."""
+    base = factor.base if factor.is_Pow else factor
+    return bool(base.is_Add) and set(base.args) == _LATER
 
 
 def _is_extreme(expr: sp.Expr) -> bool:

@@ -14,9 +14,16 @@ from derive.equations import Equation
 from derive.hypotheses import (
     CONSTANT,
     CONTINUOUS,
+    KEPT,
     NOT_SMOOTHING,
+    PERIODIC,
     RIGID,
     ROUGHENING,
+    SLOPED,
+    SMOOTH_PIN,
+    SMOOTHING,
+    UNCOUPLED,
+    UNWORN_PIN,
     Hypothesis,
     Kind,
 )
@@ -118,21 +125,24 @@ def test_every_equation_of_section_4_says_what_it_needs() -> None:
             "unworn pin",
             "rigid support",
             "no loss of contact",
-            "the bearing roughens as it wears",
+            "wear of the bearing roughens it",
             "the load is bounded by U",
         }
 
 
 CHAIN = {
-    "saturating-wear": (Asymptotic, {"constant load", "the bearing smoothens as it wears"}),
+    "saturating-wear": (Asymptotic, {"constant load", "wear of the bearing smoothens it"}),
     "logarithmic-wear": (
         Asymptotic,
-        {"wear does not change the roughness", "U_a = U*sin(2*pi*t/T)"},
+        {"wear of the bearing does not change its roughness", "U_a = U*sin(2*pi*t/T)"},
     ),
     "one-third": (Equality, {"f_c = 1/3", "continuous load", "load of period T"}),
     "two-solids-log-drift": (Limit, {"load of period T", "continuous load"}),
-    "closed-gap": (Equivalence, {"the roughness changes with wear"}),
-    "static-wear-smooth": (Equality, {"constant load", "wear does not change the roughness"}),
+    "closed-gap": (Equivalence, {"wear of the bearing changes its roughness"}),
+    "static-wear-smooth": (
+        Equality,
+        {"constant load", "wear of the bearing does not change its roughness"},
+    ),
     "slope-from-pressure": (Equality, {"the mean surfaces do not coincide"}),
     "static-solution-compliant": (Equality, {"4/f_c + log(p/(p_max - p)) - 8 != 0"}),
     "arrest-depth": (Equality, {"f_c < 1/3"}),
@@ -171,6 +181,13 @@ def test_words_belong_to_a_relation() -> None:
         Hypothesis(sp.Gt(U_c, 0), text="rigid support")  # type: ignore[call-arg]
     with pytest.raises(RuleError, match="no claim"):
         assume(Hypothesis("rigid support"))  # type: ignore[arg-type]
+
+
+def test_conditions_with_words_read_differently() -> None:
+    settings = (SMOOTH_PIN, UNWORN_PIN, RIGID, *UNCOUPLED, PERIODIC, CONSTANT, CONTINUOUS)
+    signs = (ROUGHENING, KEPT, SMOOTHING, NOT_SMOOTHING, SLOPED)
+    texts = [condition.text for condition in (*settings, *signs)]
+    assert len(set(texts)) == len(texts)
 
 
 def test_what_has_no_words_is_shown_as_it_is_typed() -> None:

@@ -8,6 +8,7 @@ from derive.laws import GENERAL
 from derive.rules.algebra import substitute
 from derive.symbols import rate, symbols, t
 from derive.typeset.display import inline, latex
+from derive.typeset.present import presentable
 from derive.written import evaluated, read
 from tests.derive.judgements import equal, given
 
@@ -42,6 +43,20 @@ def test_a_product_with_the_next_time_is_not_a_value_at_that_time() -> None:
     for factor in (u_c, rate("u_c"), f_c):
         assert latex(factor * (t + T)) == rf"\left(t + T\right) {latex(factor)}"
         assert inline(2 * factor * (t + T)).startswith(r"2 \left(t + T\right) ")
+        assert latex(presentable(factor * (t + T) ** 2)).startswith(r"\left(t + T\right)^{2} ")
+
+
+def test_a_name_of_several_letters_is_no_product() -> None:
+    b, L = symbols("b L")
+    assert latex(sp.Symbol("bL", real=True)) == r"\mathrm{bL}" != latex(b * L)
+    assert latex(sp.Symbol("du_c", real=True)) == r"\mathrm{du}_{c}"
+    assert latex(sp.Function("bL", real=True)(tau)) == r"\mathrm{bL}"
+    assert latex(sp.Symbol("alpha_1", real=True)) == r"\alpha_{1}"
+
+
+def test_the_base_e_is_upright() -> None:
+    assert latex(sp.E * f_c) == r"\mathrm{e} f_c"
+    assert latex(sp.exp(f_c)) == r"\mathrm{e}^{f_c}"
 
 
 def test_nothing_is_moved():
@@ -53,6 +68,7 @@ def test_nothing_is_moved():
     [
         (U_max**2 * f_c, r"f_c \left(\max U_a\right)^{2}"),
         (sp.Mul(U_max, f_c, evaluate=False), r"\left(\max U_a\right) f_c"),
+        (U_max / f_c, r"\left(\max U_a\right) / f_c"),
         (sp.log(f_c) / f_c, r"\ln{\left(f_c \right)} / f_c"),
         (f_c / rate("u_c"), r"f_c / \left(\mathrm{d}u_c / \mathrm{d}t\right)"),
         (sp.Mul(rate("u_c"), f_c, evaluate=False), r"\left(\mathrm{d}u_c / \mathrm{d}t\right) f_c"),

@@ -157,7 +157,7 @@ def slow(added=sp.S.Zero, without=None, left=None):
 
 
 def vanishing_drifts():
-    names = [defined(symbol(f"c_{n}"), sp.S.Zero) for n in (1, 2, 3, 4)]
+    names = [eq(symbol(f"c_{n}"), sp.S.Zero) for n in (1, 2, 3, 4)]
     known = slow_time()
     return known.rule(*names, known.parents[-1])
 
@@ -312,10 +312,17 @@ FAMILIES = (
             lambda: OrderEquation(sp.S.One)(eq(h, u_c), *expansion_premises())),
         "a second order without names": ("the drift c_2",
             lambda: OrderEquation(sp.Integer(2))(*expansion_premises())),
-        "an oscillation for a drift": ("is the term w_1",
+        "an oscillation for a drift": ("is a term of the expansion",
             lambda: defined(c_1, term_of(Oscillation, 1, U_a))),
-        "the first drift as the second one": ("is the term c_1",
+        "the first drift as the second one": ("is a term of the expansion",
             lambda: defined(c_2, term_of(Drift, 1, U_a), ROUGHENS)),
+        "the second oscillation as the first one": ("is a term of the expansion",
+            lambda: defined(symbol("w_1"), term_of(Oscillation, 2, U_a), ROUGHENS)),
+        "twice a drift": ("is a term of the expansion",
+            lambda: defined(c_1, 2 * term_of(Drift, 1, U_a), ROUGHENS)),
+        "a drift that is a datum": ("is a term of the expansion", lambda: defined(c_1, h_0)),
+        "an oscillation that is the load": ("is a term of the expansion",
+            lambda: defined(symbol("w_1"), U_a)),
         "a coefficient of what has no period": ("has the period",
             lambda: defined(c_1, term_of(Drift, 1, 2 + sp.exp(-tau)), ROUGHENS)),
         "the drift of another pressure": ("the drift c_1", of_another_pressure),
