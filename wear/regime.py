@@ -31,6 +31,7 @@ from wear.faults import AccuracyError
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
+from wear.numerics.gauss import FloatArray
 from wear.offset import offset
 from wear.outcome import FADES
 from wear.quantities import MOST_CYCLES
@@ -43,6 +44,8 @@ TOLERANCE = Decimal("1e-6")
 _DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
 _DIGITS.traps[decimal.Overflow] = False  # infinity: the pressure of a gap beyond all bounds is zero
 _PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
+_AGREES = 0.02  # relative: up to which the leading term tells when the wear has settled
+_GRID, _REFINEMENTS = 40, 3  # points and passes of the search for that: to one part in a thousand
 
 VANISHES = "the roughness vanishes in finite time; the model ends there"
 CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
@@ -240,7 +243,9 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     if per_cycle == 0.0:
         said = f"wear goes on, if under a pressure of {pressure:.3g} MPa: shown as 0"
         notices = (*notices, said)
-    until = [_cycles(abs(mean), per_cycle), _cycles(max(map(abs, extremes)), per_cycle)]
+    settled = _settled(case.scene, float(pressure), _cycles(abs(mean), per_cycle))
+    everywhere = _cycles(max(map(abs, extremes)), per_cycle)
+    until = [settled, everywhere and max(everywhere, settled or 0.0)]
     if any(each and not _lasts(case.scene, each * per_cycle) for each in until):
         until = [None, None]
         said = "contact is not yet permanent when the rate would be within 1e-6 of its limit"
@@ -264,6 +269,35 @@ def _cycles(drift: Decimal, per_cycle: float) -> float | None:
     if per_cycle == 0.0:
         return None
     return max(float(drift / (Decimal(per_cycle) * TOLERANCE)), 1.0)
+
+
+def _settled(scene: Scene, pressure: float, leading: float | None) -> float | None:
+    """Return the cycles after which the mean pressure of a cycle stays within the criterion.
+
+    ``leading`` follows from the leading term of the approach, ``A/(N u_cum)``.  Where a small A
+    lets higher orders rule at that number of cycles, the solution is searched instead.
+    """
+    if leading is None or leading > MOST_CYCLES:
+        return leading
+
+    def excess(cycles: FloatArray) -> FloatArray:
+        try:
+            mean = solve(scene, np.rint(cycles), rtol=1e-12).pressures.mean
+        except AccuracyError:  # of an extreme scene
+            mean = np.full(cycles.shape, np.nan)
+        return np.abs(mean / pressure - 1.0) / float(TOLERANCE)
+
+    if abs(float(excess(np.array([leading]))[0]) - 1.0) < _AGREES:
+        return leading
+    grid = np.geomspace(1.0, MOST_CYCLES, _GRID)
+    for _ in range(_REFINEMENTS):
+        grid = np.unique(np.rint(grid))
+        values = excess(grid)
+        outside = np.flatnonzero(values > 1.0)
+        if not len(outside) or outside[-1] == len(grid) - 1:
+            return leading if len(outside) or np.isnan(values).any() else float(grid[0])
+        grid = np.geomspace(grid[outside[-1]], grid[outside[-1] + 1], _GRID)
+    return float(grid[-1])
 
 
 def _lasts(scene: Scene, wear: float) -> bool:
@@ -388,5 +422,5 @@ def _at_one_third(case: _Case) -> Asymptote:
         "steady",
         wear_per_cycle_mm=part * case.wear_at(pressure),
         pressure_MPa=pressure,
-        notices=(f"contact lasts {part:.4g} of every cycle",),
+        notices=(f"contact lasts {part:.4g} of every cycle; the pressure is that in contact",),
     )

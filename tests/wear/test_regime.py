@@ -222,3 +222,16 @@ def test_two_solids_arrest_where_the_margin_is_first_lost(f, pin, mean, opening)
     if depth is not None:
         assert depth >= 0.0
         assert model.margin(depth * (1 + 1e-6), peak) <= 1e-15
+
+
+@pytest.mark.parametrize("slope", [1 / 3, 0.3333, 0.3334, 0.4])
+def test_wear_has_settled_when_it_is_said_to_have(slope):
+    """Near f_c = 1/3 the coefficient of ln N vanishes, and higher orders rule."""
+    scene = load_scene("section4", [f"bearing.roughness_growth={slope}"])
+    found = asymptote(scene)
+    settled = round(found.cycles_to_stabilise["mean_rate_within_1e-6"])
+    cycles = np.array([settled // 2, settled, 10 * settled])
+    excess = solve(scene, cycles, rtol=1e-12).pressures.mean / found.pressure_MPa - 1.0
+    assert abs(excess[0]) > 1.5e-6
+    assert abs(excess[1]) == pytest.approx(1e-6, rel=0.02)
+    assert abs(excess[2]) < 2e-7
