@@ -303,7 +303,8 @@ def cycles_to_depth(
             reach = min(reach * FARTHER, float(MOST_CYCLES))
             orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol, np.max(depths))
             cycles, uncertain = orbit.until(np.broadcast_to(depths, (len(todo), len(depths))))
-            cycles[cycles > reach] = np.inf
+            farthest = np.where(orbit.at_rest, MOST_CYCLES, reach)  # at rest all is counted
+            cycles[cycles > farthest[:, None]] = np.inf
             count[todo], error[todo] = cycles, uncertain / np.maximum(cycles, 1.0)
             more = np.isinf(cycles).any(axis=1) & ~orbit.at_rest
             todo = todo[more] if reach < MOST_CYCLES else todo[:0]

@@ -26,6 +26,7 @@ import numpy as np
 
 from wear import own_laws
 from wear.binding import bind
+from wear.cycle_means import cycle_mean
 from wear.cycles import orbit_of_scene
 from wear.faults import AccuracyError
 from wear.generated import asymptotics as formula
@@ -337,8 +338,9 @@ def _constant_roughness(case: _Case) -> Asymptote:
 
 def _log_load_factor(load: Load, sigma: float) -> float:
     """Return the logarithm of the mean of exp(4 U_a/sigma) over a period, without overflow."""
-    exponents = 4.0 * (load(_PHASES) - load.maximum) / sigma
-    return 4.0 * load.maximum / sigma + math.log(float(np.mean(np.exp(exponents))))
+    scale = sigma / 4.0
+    mean = cycle_mean(load, lambda U_a: np.exp((U_a - load.maximum) / scale), scale=scale)
+    return load.maximum / scale + math.log(mean)
 
 
 def _with_cutoff(case: _Case) -> Asymptote:
@@ -414,13 +416,24 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
 
 
 def _at_one_third(case: _Case) -> Asymptote:
-    """Return the asymptote at f_c = 1/3: contact in a fixed part of every cycle."""
-    part = float(np.mean(bind(case.scene).margin(0.0, case.load(_PHASES)) >= 0.0))
-    pressure = float(_steady_pressure(case))
+    """Return the asymptote at f_c = 1/3: contact in a fixed part of every cycle.
+
+    On springs the gap closes no further than to the edge of contact where their force, stiffness
+    times margin, is below the limit of the pressure.
+    """
+    begins = -float(bind(case.scene).margin(0.0, 0.0))  # the load at which contact begins
+    pressure, support = float(_steady_pressure(case)), case.scene.support
+    part = cycle_mean(case.load, lambda U_a: np.where(U_a >= begins, 1.0, 0.0), [begins])
+    mean = part * pressure
+    if support is not None:
+        k = support.stiffness_MPa_per_mm
+        pressure = min(pressure, k * (case.load.maximum - begins))
+        levels = [begins, begins + pressure / k]
+        mean = cycle_mean(case.load, lambda U_a: np.clip(k * (U_a - begins), 0, pressure), levels)
     return _result(
         case,
         "steady",
-        wear_per_cycle_mm=part * case.wear_at(pressure),
+        wear_per_cycle_mm=case.wear_at(mean),
         pressure_MPa=pressure,
-        notices=(f"contact lasts {part:.4g} of every cycle; the pressure is that in contact",),
+        notices=(f"contact lasts {part:.4g} of every cycle; the pressure is its limit at the peak of the load",),
     )

@@ -52,10 +52,10 @@ def conditions() -> str:
 def _without(row: reasons.Reason) -> str:
     condition = row.condition if row.latex.startswith(r"\text") else f"${row.latex}$"
     if not row.model:
-        return f"- Without *{condition}*: no counterexample was found."
+        return f"- Without the condition *{condition}*: no counterexample was found."
     model = ", ".join(f"${part}$" for part in row.model)
     verdict = f"has no meaning, as ${row.left}$ fails," if row.left else "fails"
-    return f"- Without *{condition}* it {verdict} for {model}: {row.where}."
+    return f"- Without the condition *{condition}* it {verdict} for {model}: {row.where}."
 
 
 def symbols() -> str:
@@ -76,12 +76,12 @@ def _entry(found: Equation) -> str:
         _block(found.latex),
     ]
     if found.conditions:
-        needed = dict.fromkeys(condition.text for condition in found.conditions)
+        needed = dict.fromkeys(c.words or f"${c.latex}$" for c in found.conditions)
         parts.append(f"If {', '.join(needed)}.")
     if found.printed and not found.agrees:
         parts += ["As printed, which is not equivalent:", _block(found.printed_latex)]
     if found.remark:
-        parts.append(f"{_capitalised(found.remark)}.")
+        parts.append(f"{in_latex(_capitalised(found.remark))}.")
     return "\n\n".join(parts)
 
 

@@ -8,12 +8,13 @@ from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from wear.load.blocks import Block
-from wear.load.conversion import KINDS, PERIODIC
+from wear.load.conversion import KINDS, PERIODIC, ROWS
 from wear.quantities import unit_of
 from wear.scene import Scene
 from wear.validation import TABLES, SceneTable
 
-_SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b")
+_SYMBOL = re.compile(r"\b(sigma|phi|[UHKfhpRu])_(\w+)\b|\b(sigma|phi)\b|(?P<code>\{.*?\})")
+_UNITS = ("_mm", "_N")  # of columns
 _WORDS = {"max": r"\max"}
 _TABLES = ("bearing", "pin", "contact", "support", "motion")
 _KINDS = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
@@ -35,6 +36,8 @@ def reference() -> str:
         parts.append(f'### `kind = "{kind}"`')
         for table in (each for each in TABLES if each.kind == kind):
             parts += [_sentence(table), _keys(table, first=row)]
+        if kind in ROWS:
+            parts += ["Or the rows stand in the scene file itself:", _keys(ROWS[kind], first=row)]
     names = ", ".join(f"`{kind}`" for kind in PERIODIC)
     parts += [
         "### `[[load.blocks]]`",
@@ -62,15 +65,17 @@ def _keys(table: type[SceneTable], only: tuple[str, ...] = (), first: str = "") 
 
 
 def _typeset(meaning: str) -> str:
-    r"""Symbols of a plain sentence in mathematics, options as code; names of columns stay.
+    r"""Symbols of a plain sentence in mathematics, options and braces as code; names of columns stay.
 
-    >>> _typeset("roughness sigma_c0, columns t_s,U_a_mm, R_a = p b L")
-    'roughness $\\sigma_{c0}$, columns t_s,U_a_mm, $R_{a}$ = p b L'
+    >>> _typeset("roughness sigma_c0, columns t_s,U_a_mm, R_a = p b L, { phi = 1 }")
+    'roughness $\\sigma_{c0}$, columns t_s,U_a_mm, $R_{a}$ = p b L, `{ phi = 1 }`'
     """
 
     def symbol(found: re.Match[str]) -> str:
-        name, index, alone = found.groups()
-        if index is not None and index.endswith("_mm"):
+        name, index, alone, code = found.groups()
+        if code:
+            return f"`{code}`"
+        if index is not None and index.endswith(_UNITS):
             return found[0]
         letter = name or alone
         greek = rf"\{letter}" if len(letter) > 1 else letter

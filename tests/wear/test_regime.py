@@ -6,13 +6,16 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+import scipy.special
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.references import VALUES
 from wear import cycles
 from wear.binding import bind
+from wear.cycle_means import cycle_mean
 from wear.generated import asymptotics as formula
+from wear.load import Sine, Table
 from wear.regime import Asymptote, asymptote
 from wear.scene import builtin_names, load_scene
 from wear.scene_orbit import SceneOrbit
@@ -93,6 +96,35 @@ def test_one_third_with_cutoff():
     found = _asymptote("f-one-third")
     assert found.regime == "steady"
     assert found.wear_per_cycle_mm == pytest.approx(_published("cutoff", "u_cum_f_1/3"), rel=1e-14)
+
+
+PULSE = Table((0.0, 0.03, 0.030006, 0.030012, 0.06), (0.0, 0.0, 5e-4, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"contact.closure_mm": 1.25e-3},
+        *({"support": {"stiffness_MPa_per_mm": k}} for k in (10.0, 1565.0, 1e5)),
+        {"contact.closure_mm": 1.25e-3, "load": PULSE},
+    ],
+)
+def test_at_one_third_the_solver_finds_the_rate(changed):
+    scene = load_scene("f-one-third").with_(changed)
+    first, last = solve(scene, [5 * 10**11, 10**12], rtol=1e-12).u_c
+    rate = asymptote(scene).wear_per_cycle_mm
+    assert (last - first) / 5e11 == pytest.approx(rate, rel=2e-7)
+
+
+@pytest.mark.parametrize("sharpness", [0.01, 1.0, 1e3, 1e6, 1e9])
+def test_means_over_a_cycle_miss_no_peak(sharpness):
+    def peaked(load):
+        return cycle_mean(load, lambda U: np.exp(sharpness * (U - 1.0)), scale=1.0 / sharpness)
+
+    line = -math.expm1(-sharpness) / sharpness
+    assert peaked(Sine(1.0, 1.0)) == pytest.approx(scipy.special.ive(0, sharpness), rel=1e-8)
+    assert peaked(Table((0.0, 0.5, 1.0), (0.0, 1.0, 0.0))) == pytest.approx(line, rel=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,12 @@ from tests.judges import honest
 from tests.wear.reference_scenes import REFERENCE, made, reference_scene
 from wear.binding import bind
 from wear.cycles import cycles_to_depth, sweep, wear_after
+from wear.life import cycles_until
 from wear.load import Block, Blocks, Constant, Harmonics, Load, Sine, Table
 from wear.numerics.gauss import FloatArray
+from wear.regime import asymptote
 from wear.scene import Scene, load_scene
+from wear.solver import solve
 
 CYCLES = np.array([1.0, 10.0, 100.0, 1000.0, 9000.0])
 
@@ -170,3 +173,25 @@ def test_scenes_that_lose_contact_are_as_if_alone_in_any_order():
 def test_no_scenes_have_no_wear():
     found = sweep([], CYCLES)
     assert found.u_c.shape == found.error.shape == (0, len(CYCLES))
+
+
+def test_depths_that_springs_near_are_counted():
+    """Wear tends to a limit; every depth below it is reached."""
+    scene = load_scene("section4-cutoff", ["bearing.roughness_growth=0.05",
+                       "support.stiffness_MPa_per_mm=100"])  # fmt: skip
+    depths = asymptote(scene).arrest_wear_mm * np.array([0.3, 0.9, 0.99, 0.999, 1.001])
+    together = cycles_to_depth([scene, load_scene("section4-cutoff")], depths)
+    alone = cycles_until(scene, depths)
+    assert np.isfinite(together.cycles[0]).tolist() == [True] * 4 + [False]
+    assert_allclose(together.cycles[0, :4], alone.cycles[:4].astype(float), rtol=1e-6)
+
+
+def test_an_edge_of_contact_in_the_last_bits_of_the_cycle():
+    """A cut one rounding error before the end of the cycle has its middle at the end."""
+    scene = load_scene("section4-cutoff", [
+        "contact.closure_in_sigma=3", "pin.hardness_MPa=600", "pin.wear_coefficient=1.5e-7",
+        "bearing.roughness_mm=0.0014854", "pin.roughness_mm=0.0004645", "pin.roughness_growth=0.13",
+        "bearing.roughness_growth=0.33", "load.amplitude_mm=0.000911",
+    ])  # fmt: skip
+    wear = solve(scene, [10], rtol=1e-9).u_c
+    assert_allclose(wear, solve(scene, [10], method="DOP853", rtol=1e-10).u_c, rtol=1e-7)

@@ -96,7 +96,10 @@ def edges_of_contact(models: Sequence[Model], loads: Sequence[Load]) -> list[Edg
     bends = [inner[scene == i] for i in range(len(models))]
     cuts = [np.unique(np.append(*phases)) for phases in zip(turns, bends, strict=True)]
     middles = [(phases[1:] + phases[:-1]) / 2 for phases in cuts]
-    of = [np.searchsorted(*phases, side="right") - 1 for phases in zip(turns, middles, strict=True)]
+    of = [  # the middle of two neighbouring numbers may be the last turning point
+        np.minimum(np.searchsorted(at, middle, side="right"), len(at) - 1) - 1
+        for at, middle in zip(turns, middles, strict=True)
+    ]
     leg = np.concatenate(of) + np.repeat(np.cumsum(number) - number, [len(each) for each in of])
     closes = legs.take(leg).closing_speed(np.concatenate(middles)) >= 0.0
     each = np.split(closes, np.cumsum([len(phases) for phases in middles])[:-1])
