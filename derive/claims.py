@@ -24,6 +24,7 @@ from sympy.printing.pretty.pretty import PrettyPrinter
 from sympy.printing.pretty.stringpict import prettyForm
 
 from . import repairs  # noqa: F401 - of SymPy, before it decides anything
+from .symbols import t
 
 landau_o = sp.Function("o", real=True)
 """Landau's o: ``o(order, variable, point)`` is negligible against the order towards the point."""
@@ -245,17 +246,15 @@ class Equivalence(Claim):
 
 @dataclass(frozen=True)
 class Limit(Claim):
-    """``expr`` tends to ``value`` as ``variable`` tends to ``point`` (``oo`` or from above)."""
+    """``expr`` tends to ``value`` as time tends to infinity."""
 
     expr: sp.Expr
-    variable: sp.Symbol
-    point: sp.Expr
     value: sp.Expr
 
     @property
     def term(self) -> sp.Limit:
         """Return the limit as an expression."""
-        return sp.Limit(self.expr, self.variable, self.point)
+        return sp.Limit(self.expr, t, sp.oo)
 
     @property
     def relation(self) -> sp.Basic:
@@ -318,8 +317,9 @@ def claim_of(relation: sp.Basic) -> Claim:
     if isinstance(relation, sp.Equality):
         left, right = relation.args
         if isinstance(left, sp.Limit) and not right.has(sp.Limit):
-            expr, variable, point = left.args[:3]
-            return Limit(expr, variable, point, right)
+            if left.args[1:3] != (t, sp.oo):
+                raise ClaimError(f"{relation} is no limit for t -> oo")
+            return Limit(left.args[0], right)
         return Equality(left, right)
     if isinstance(relation, sp.Unequality):
         return Inequation(*relation.args)

@@ -38,7 +38,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
                 target.write_bytes(draft.read_bytes())
             return
         target = target.resolve()  # a link stays a link
-        draft = target.with_name(f".{target.stem}-{secrets.token_hex(4)}{target.suffix}")
+        draft = target.with_name(f".{secrets.token_hex(8)}{target.suffix}")
         try:
             yield draft
             with draft.open("rb") as handle:

@@ -22,6 +22,7 @@ from pathlib import Path
 from .claims import Predicate
 from .equations import Equation
 from .falsifier.verdict import SEEDS, counterexample_without, is_open_without
+from .files import write_atomically
 from .hypotheses import Hypothesis
 from .kernel import Judgement
 from .typeset.display import inline
@@ -127,7 +128,7 @@ def main() -> None:
 
     of_the_note = [entry for entry in all_equations() if entry.id[0].isdigit()]
     rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
-    TABLE.write_text(json.dumps(rows, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write_atomically(TABLE, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
 
 
 if __name__ == "__main__":

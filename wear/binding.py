@@ -58,9 +58,11 @@ def bind_many(scenes: Sequence[Scene]) -> Model:
     Raises
     ------
     UsageError
-        if the scenes need different variants.
+        if there are no scenes, or they need different variants.
     """
     scenes = as_scenes(scenes)
+    if not scenes:
+        raise UsageError("scenes: there are none; give at least one")
     if len({scene.variant for scene in scenes}) != 1:
         raise UsageError("scenes that are solved together must model the same things")
     rows = [scene.parameters() for scene in scenes]

@@ -37,16 +37,20 @@ def cycle_mean(
     >>> cycle_mean(Sine(1.0, 1.0), lambda U: np.where(U >= 0.5, 1.0, 0.0), [0.5])  # a third
     0.333333...
     """
-    cuts = turning_points(load)
-    for level in levels:
-        above = np.asarray(load(cuts)) - level
-        crosses = above[1:] * above[:-1] < 0.0
-        ends = cuts[:-1][crosses], cuts[1:][crosses]
-        cuts = np.union1d(cuts, bracketed(lambda x, at=level: load(x) - at, *ends)[1])
+    turns = turning_points(load)
+    crossings = [_crossings(load, turns, level) for level in levels]
+    cuts = np.unique(np.concatenate([turns, *crossings]))
     changes = np.abs(np.diff(load(cuts))) / scale
     halvings = np.clip(np.ceil(np.log2(np.maximum(changes, 1.0))), 0, MOST_HALVINGS).astype(int)
     over = mesh(np.append(np.concatenate([*map(_graded, cuts, cuts[1:], halvings)]), 1.0), NODES)
     return float(integral(function(load(over.phases)), over))
+
+
+def _crossings(load: Load, turns: FloatArray, level: float) -> FloatArray:
+    """Return the phases at which the load crosses a level, between the phases of its turns."""
+    above = load(turns) - level
+    crosses = above[1:] * above[:-1] < 0.0
+    return bracketed(lambda x: load(x) - level, turns[:-1][crosses], turns[1:][crosses])[1]
 
 
 def _graded(begin: float, end: float, halvings: int) -> FloatArray:

@@ -301,7 +301,8 @@ def cycles_to_depth(
         todo, reach = np.arange(len(group)), LEAST
         while len(todo):
             reach = min(reach * FARTHER, float(MOST_CYCLES))
-            orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol, np.max(depths))
+            deepest = np.max(depths, initial=0.0)
+            orbit = _orbit([group[i] for i in todo.tolist()], reach, rtol, deepest)
             cycles, uncertain = orbit.until(np.broadcast_to(depths, (len(todo), len(depths))))
             farthest = np.where(orbit.at_rest, MOST_CYCLES, reach)  # at rest all is counted
             cycles[cycles > farthest[:, None]] = np.inf

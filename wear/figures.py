@@ -100,6 +100,8 @@ def history(
     the cycles are then straight lines. Pressures that fall by decades always have one, without the
     zero pressures.
     """
+    x = np.concatenate([line.x for each in shown for line in (*each.lines, *each.points)])
+    logarithmic = logarithmic and bool(np.any(x > 0.0))
     height = 0.66 if len(shown) == 1 else 0.44 * len(shown)
     with styled():
         figure, rows = panels(len(shown), 1, COLUMN, height * COLUMN)
@@ -114,7 +116,6 @@ def history(
             elif logarithmic and len(shown) > 1 and spans_decades(panel.lines):
                 axes.set_yscale("log")
             _panel(axes, panel, logarithmic)
-        x = np.concatenate([line.x for each in shown for line in (*each.lines, *each.points)])
         first, last = x[x > 0.0].min() if logarithmic else x.min(), x.max()
         if first < last:
             rows[-1].set_xlim(first, last)

@@ -244,4 +244,5 @@ class History:
             "cost": json.dumps(dict(self.cost)),
             "seconds": repr(self.seconds),
             "notices": json.dumps(self.notices),
+            "complete": json.dumps(not self.stopped),
         }

@@ -435,5 +435,8 @@ def _at_one_third(case: _Case) -> Asymptote:
         "steady",
         wear_per_cycle_mm=case.wear_at(mean),
         pressure_MPa=pressure,
-        notices=(f"contact lasts {part:.4g} of every cycle; the pressure is its limit at the peak of the load",),
+        notices=(
+            f"contact lasts {part:.4g} of every cycle",
+            "the contact pressure is its limit at the peak of the load",
+        ),
     )

@@ -76,9 +76,11 @@ def _several(given: Any) -> list[Any]:
         given = given.tolist()
     if not isinstance(given, Iterable) or isinstance(given, str | bytes):
         return [given]
-    numbers = list(given) if isinstance(given, Sized) else list(islice(given, MOST_ITERATED + 1))
-    if not isinstance(given, Sized) and len(numbers) > MOST_ITERATED:
-        raise UsageError(f"an iterator gives more than {MOST_ITERATED} numbers; give a list")
+    in_memory = isinstance(given, Sized) and not isinstance(given, range)
+    numbers = list(given) if in_memory else list(islice(given, MOST_ITERATED + 1))
+    if not in_memory and len(numbers) > MOST_ITERATED:
+        said = f"a {type(given).__name__} gives more than {MOST_ITERATED} numbers"
+        raise UsageError(f"{said}; give a list")
     return numbers
 
 

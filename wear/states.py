@@ -24,7 +24,7 @@ def fields_at(model: Model, scene: Scene, cycles: Sequence[int], u: FloatArray) 
     return fields_under_load(model, u, U_a, rise)
 
 
-@np.errstate(invalid="ignore")  # beyond the wear at which the roughness vanishes
+@np.errstate(invalid="ignore", over="ignore")  # no roughness; a closure far below zero
 def fields_under_load(model: Model, u: FloatArray, U_a: FloatArray, rise: FloatArray) -> Fields:
     """Return the fields under displacements (mm) that rise by `rise` (mm/s), all of which
     broadcast; at the edge of contact with the acting pressure."""

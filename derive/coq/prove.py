@@ -17,6 +17,7 @@ from pathlib import Path
 
 from ..catalogue import all_equations
 from ..equations import Equation
+from ..files import write_atomically
 from .export import HEAD, Export, compile_faults, ran
 from .steps import RECORD, Record, Row, Step, record
 
@@ -78,7 +79,7 @@ def main() -> None:
     """Write the record of all steps."""
     rows = renewed(all_equations(), record())
     lines = ",\n".join(f'"{key}": {json.dumps(rows[key])}' for key in sorted(rows))
-    RECORD.write_text(f"{{\n{lines}\n}}\n", encoding="utf-8")
+    write_atomically(RECORD, f"{{\n{lines}\n}}\n")
     print(f"{sum(row['closed'] for row in rows.values())} of {len(rows)} steps closed")
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..claims import Asymptotic
+from ..claims import Asymptotic, Limit
 from ..hypotheses import LOAD, PERIODIC, SINE
 from ..kernel import Conclusion, Judgement, RuleError
 from ..laws import r
@@ -20,7 +20,7 @@ from ..reals import holds
 from ..symbols import symbols, t
 from ..zero import is_zero
 from .growth import bounds
-from .limits import in_terms_of, in_time
+from .limits import in_terms_of
 from .proving import coefficients, continuous, facts_of, require, require_defined, smooth
 from .reading import (
     T,
@@ -72,7 +72,7 @@ class FirstOrder(Theorem):
             raise RuleError(f"missing premise: {steady.value} is the rate at the limit")
         require(positive(steady.value), *premises)
         slope = sp.cancel(sp.diff(function, y).subs(y, x.value) / steady.value)
-        return Conclusion(in_time(t * (steady.expr - steady.value) - slope * first, sp.S.Zero))
+        return Conclusion(Limit(t * (steady.expr - steady.value) - slope * first, sp.S.Zero))
 
 
 first_order = FirstOrder()
@@ -103,7 +103,7 @@ class LogarithmicDrift(Theorem):
         if approach.value != 0 or rest != 0 or speed.has(now, load) or not linear:
             raise RuleError("missing premise: t (du/dt - R) - a(t) -> 0, a linear in the load")
         drift = (u - speed * t) / sp.log(t / T)
-        return Conclusion(in_time(drift, periodic.subs(load, U_mean)), gives=(1 / sp.log(t / T),))
+        return Conclusion(Limit(drift, periodic.subs(load, U_mean)), gives=(1 / sp.log(t / T),))
 
 
 def _laws(expr: sp.Expr) -> set[sp.Basic]:

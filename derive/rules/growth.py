@@ -19,13 +19,13 @@ from functools import cache
 import sympy as sp
 from sympy.core.relational import Relational
 
+from ..claims import Limit
 from ..hypotheses import BOUNDED_LOAD, CONTINUOUS, LOAD, PERIODIC
 from ..kernel import Conclusion, Judgement, Rule, RuleError
 from ..parts import nonnegative, positive
 from ..reals import LAW, holds
 from ..symbols import symbol, t
 from ..zero import is_zero
-from .limits import in_time
 from .proving import coefficients, continuity, continuous, facts_of, require
 from .reading import (
     T,
@@ -61,7 +61,7 @@ class Diverges(Theorem):
             raise RuleError(f"missing premise: {self.expr} is linear in a growing field")
         for factor in (speed, slope):
             require(positive(factor), *premises)
-        return Conclusion(in_time(self.expr, sp.oo))
+        return Conclusion(Limit(self.expr, sp.oo))
 
 
 def bounds(field: sp.Expr, *premises: Judgement) -> tuple[sp.Basic, ...]:
@@ -158,7 +158,7 @@ class Unbounded(Theorem):
         always = [f for f in facts if all(constant(h.relation) for h in f.hypotheses)]
         anywhere = [fact for fact in facts_of(always) if fields(fact) <= {u}]
         _require_positive(function, (*closed, *anywhere), *premises)
-        return Conclusion(in_time(u, sp.oo))
+        return Conclusion(Limit(u, sp.oo))
 
 
 unbounded = Unbounded()
@@ -227,7 +227,7 @@ class AtInfinity(Theorem):
         value = sp.powsimp(taylor(smooth, z, order)) if order >= 0 else sp.S.Zero
         if value.has(*plain.values()) or not is_zero(value - self.claim.rhs):
             raise RuleError(f"missing premise: the limit is {value}")
-        return Conclusion(in_time(inside, self.claim.rhs))
+        return Conclusion(Limit(inside, self.claim.rhs))
 
     def _deep(self, u: sp.Expr, z: sp.Symbol, premises: tuple[Judgement, ...]) -> sp.Expr:
         """Return u as a function of z, for ``z = 1/u`` and for ``z = exp(-c u)``."""
@@ -295,7 +295,7 @@ class Intermittent(Theorem):
         value = smooth.subs(z, 0)
         if order or not continuous(smooth, {z: sp.S.Zero}, law) or value.atoms(sp.Dummy):
             raise RuleError("missing premise: the limit of the rate in contact")
-        return Conclusion(in_time(u.subs(t, t + T) - u, meaning.lhs * T * value))
+        return Conclusion(Limit(u.subs(t, t + T) - u, meaning.lhs * T * value))
 
 
 intermittent = Intermittent()

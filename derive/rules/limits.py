@@ -54,11 +54,6 @@ def later(expr: sp.Basic) -> sp.Basic:
     return expr.xreplace(moving)
 
 
-def in_time(expr: sp.Expr, value: sp.Expr) -> Limit:
-    """Return the claim of a limit for t -> oo."""
-    return Limit(expr, t, sp.oo, value)
-
-
 class OnePeriodLater(Rule):
     """A claim that holds at every time holds one period later."""
 
@@ -94,7 +89,7 @@ class Vanishes(Theorem):
         for side in (low, high):
             if not constant(sp.cancel(side * size)):
                 raise RuleError(f"missing premise: {side} is a constant over {size}")
-        return Conclusion(in_time(middle, sp.S.Zero))
+        return Conclusion(Limit(middle, sp.S.Zero))
 
 
 vanishes = Vanishes()
@@ -137,7 +132,7 @@ class Passes(Theorem):
             raise RuleError(f"missing premise: {whole} is continuous at {(*ends.values(),)}")
         if not is_zero(expr.subs(ends) - self.claim.rhs):
             raise RuleError(f"missing premise: the limit of {whole} is {expr.subs(ends)}")
-        return Conclusion(in_time(whole, self.claim.rhs), gives=(*meaning.values(),))
+        return Conclusion(Limit(whole, self.claim.rhs), gives=(*meaning.values(),))
 
 
 def in_terms_of(expr: sp.Expr, quantity: sp.Expr, name: sp.Symbol) -> sp.Expr:
@@ -172,7 +167,7 @@ class Accumulates(Theorem):
         u = field_of_rate(given.expr)
         if not constant(given.value) or given.value.is_finite is False:
             raise RuleError(f"missing premise: the limit of {given.expr} is finite")
-        return Conclusion(in_time(u.subs(t, t + T) - u, given.value * T))
+        return Conclusion(Limit(u.subs(t, t + T) - u, given.value * T))
 
 
 accumulates = Accumulates()

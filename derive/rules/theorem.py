@@ -26,7 +26,7 @@ class Theorem(Rule):
     def conclude(self, *premises: Judgement) -> Conclusion:
         made = self.prove(*premises)
         now, at_the_end = _sides(made.claim)
-        late = getattr(made.claim, "point", None) is sp.oo
+        late = isinstance(made.claim, Limit) or getattr(made.claim, "point", None) is sp.oo
         limits = (p.claim.expr for p in premises if late and isinstance(p.claim, Limit))
         require_defined(now, *premises, near=made.gives)
         require_defined(at_the_end, *premises, near=(*made.gives, *limits))

@@ -65,7 +65,7 @@ def _keys(table: type[SceneTable], only: tuple[str, ...] = (), first: str = "") 
 
 
 def _typeset(meaning: str) -> str:
-    r"""Symbols of a plain sentence in mathematics, options and braces as code; names of columns stay.
+    r"""Symbols of a plain sentence in mathematics, options and braces as code, columns as they are.
 
     >>> _typeset("roughness sigma_c0, columns t_s,U_a_mm, R_a = p b L, { phi = 1 }")
     'roughness $\\sigma_{c0}$, columns t_s,U_a_mm, $R_{a}$ = p b L, `{ phi = 1 }`'

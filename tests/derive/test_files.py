@@ -25,6 +25,11 @@ def test_content_is_written_as_it_is(tmp_path, content):
     assert contents(tmp_path) == {"wear.csv": expected}
 
 
+def test_a_name_may_be_as_long_as_the_file_system_allows(tmp_path):
+    write_atomically(tmp_path / f"{'a' * 251}.csv", "cycle\n")
+    assert contents(tmp_path) == {f"{'a' * 251}.csv": b"cycle\n"}
+
+
 @pytest.mark.parametrize("fault", [RuntimeError, KeyboardInterrupt, SystemExit, MemoryError])
 def test_what_stops_a_writer_leaves_the_file_before_and_nothing_else(tmp_path, fault):
     target = tmp_path / "wear.nc"

@@ -155,3 +155,10 @@ def test_progress_is_told_from_cycle_to_cycle(name: str, monkeypatch: pytest.Mon
     assert cycles == sorted(cycles)
     assert set(cycles) >= {0, 1, 2, 3}
     assert all(text.endswith(" s left") and " of 4, about " in text for text in told)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_law_without_a_largest_pressure_overflows_quietly():
+    """The closure is far below zero; the rate grows beyond all numbers and wear ends it."""
+    scene = load_scene("section4").with_({"contact.law": "exponential", "load.amplitude_mm": 1.0})
+    assert np.isfinite(solve(scene, [1, 2], rtol=1e-6).u_c).all()

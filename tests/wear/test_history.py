@@ -109,6 +109,7 @@ def test_csv_reads_back_exactly(section3, tmp_path):
     for name, values in section3.columns().items():
         np.testing.assert_array_equal([float(row[name]) for row in rows], values)
     assert notes["method"] == "DOP853"
+    assert notes["complete"] == "true"
     scene = Scene.from_dict(json.loads(notes["scene"]))
     assert scene == reference_scene("S1")
 
@@ -150,7 +151,7 @@ def test_an_accuracy_out_of_reach_is_told_with_the_best_result():
     assert np.all(best.error < 1e-11)
 
 
-def test_a_time_limit_keeps_what_was_computed():
+def test_a_time_limit_keeps_what_was_computed(tmp_path):
     solve(reference_scene("S2"), [1], 1e-6, "RK23")  # what is imported by need takes its time
     with pytest.raises(Interrupted, match="time limit") as stop:
         solve(reference_scene("S2"), [1, 2, 10**11], 1e-6, "RK23", time_limit=1.0)
@@ -158,6 +159,8 @@ def test_a_time_limit_keeps_what_was_computed():
     assert history.cycles.tolist() == [1, 2]
     np.testing.assert_allclose(history.u_c[0], REFERENCE["S2"][1], rtol=1e-5)
     assert history.as_json()["cycles"] == [1, 2]
+    history.write(tmp_path / "wear.csv")
+    assert "# complete: false" in (tmp_path / "wear.csv").read_text(encoding="utf-8")
 
 
 def test_a_count_out_of_time_keeps_its_first_cycles():

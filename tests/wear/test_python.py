@@ -62,6 +62,10 @@ def test_a_history_draws_wear_roughness_and_pressure() -> None:
     assert all(word in labels for word in ("wear", "roughness", "pressure"))
 
 
+def test_a_history_of_no_cycle_is_drawn_on_linear_axes() -> None:
+    assert wear.solve("section4", [0], rtol=1e-6).plot().axes[-1].get_xscale() == "linear"
+
+
 def test_what_takes_long_says_how_far_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if two seconds had passed at once."""
     monkeypatch.setattr("wear.progress.SILENT", 0.0)

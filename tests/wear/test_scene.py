@@ -187,6 +187,15 @@ def test_a_checksum_pins_the_file(tmp_path):
         parse_scene(scene.to_toml(), folder=tmp_path)
 
 
+def test_a_table_of_many_rows_is_a_scene_file():
+    """Lines of a scene file have a greatest length; lists go over several."""
+    times = np.linspace(0.0, 0.06, 1001)
+    rows = 5e-4 * np.sin(2.0 * np.pi * times / 0.06).round(12)
+    load = Table(tuple(times.tolist()), (*rows[:-1].tolist(), rows[0].item()))
+    scene = replace(load_scene("section4"), load=load)
+    assert parse_scene(scene.to_toml()) == scene
+
+
 # The way back
 
 

@@ -196,6 +196,7 @@ def test_a_study_is_what_its_scenes_give_one_by_one(tmp_path):
     count = int(row["cycles_to_wear"])
     around = wear.solve(scene, [count - 1, count], rtol=1e-12).u_c
     assert around[0] < 1e-3 <= around[1]
+    assert 0.0 < found["cycles_to_wear_error"].values.max() < 1e-5
 
 
 @pytest.mark.usefixtures("small_chunks")

@@ -170,6 +170,10 @@ def test_scenes_that_lose_contact_are_as_if_alone_in_any_order():
         assert ends[0] < depth[i] <= ends[1]
 
 
+def test_no_depths_take_no_cycles():
+    assert cycles_to_depth(["section4"], []).cycles.shape == (1, 0)
+
+
 def test_no_scenes_have_no_wear():
     found = sweep([], CYCLES)
     assert found.u_c.shape == found.error.shape == (0, len(CYCLES))

@@ -123,6 +123,8 @@ OPEN: Any = wear  # whose calls below are wrong on purpose
         lambda: OPEN.bind_many([3]),
         lambda: OPEN.ten_percent_life({}),
         lambda: OPEN.bind_many(3),
+        lambda: OPEN.bind_many([]),
+        lambda: OPEN.solve("section4", range(10**10)),
         lambda: OPEN.gradients(["section4"], 3, [1]),
         lambda: OPEN.gradients(["section4"], [K], None),
         lambda: wear.sweep([SECTION4, ENDS], [1, 51]),

@@ -81,9 +81,15 @@ def execute(options: Options) -> Answer:
         history, status, faulty = miss.best, terminal.INACCURATE, [str(miss)]
     document, notices = history.as_json(), [*run_output.notices_of(history), *faulty]
     parts = [run_output.text(history)] if output is None else []
-    if wears is not None:
-        with terminal.busy("counting cycles to the wear"):
-            life = cycles_until(scene, wears, rtol)
+    life = None
+    if wears is not None and status is not terminal.INTERRUPTED:
+        try:
+            with terminal.busy("counting cycles to the wear"):
+                life = cycles_until(scene, wears, rtol)
+        except KeyboardInterrupt:  # the history is kept
+            status = terminal.INTERRUPTED
+            notices.append("interrupted before the cycles to the wear were counted")
+    if life is not None:
         document["cycles_until"] = {
             "bearing_wear_mm": list(life.wear_mm),
             "cycles": [None if math.isnan(cycles) else int(cycles) for cycles in life.cycles],

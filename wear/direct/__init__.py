@@ -74,6 +74,7 @@ class State(NamedTuple):
     fades: bool = False
 
 
+@np.errstate(over="ignore")  # trial states far off, under a law without a largest pressure
 def integrate(
     model: Model,
     load: Loading,

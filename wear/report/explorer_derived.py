@@ -23,6 +23,7 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from derive.files import write_atomically
 from derive.laws import LAWS, TANH, ContactLaw
 from derive.typeset import mathml
 from wear.own_laws import PREFIX
@@ -241,4 +242,4 @@ def parameter_rows() -> list[dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    (Path(__file__).parent / "assets" / FILE).write_text(derived(), encoding="utf-8")
+    write_atomically(Path(__file__).parent / "assets" / FILE, derived())

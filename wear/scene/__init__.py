@@ -31,6 +31,7 @@ from wear.words import are_texts, did_you_mean, is_path, shown
 
 SCENES = Path(__file__).parents[1].joinpath("scenes")
 NO_ENTRY = Field(exclude=True, repr=False)
+IN_A_LINE = 8  # numbers of a list in a scene file
 
 
 @table("")
@@ -258,7 +259,13 @@ class Scene(SceneTable):
 
 
 def _toml(value: object) -> str:
-    """Return a plain value in TOML, whose flags, finite numbers, texts and lists are JSON's."""
+    """Return a plain value in TOML, whose flags, finite numbers, texts and lists are JSON's.
+
+    A long list stands on several lines, as lines have a greatest length.
+    """
+    if isinstance(value, list) and len(value) > IN_A_LINE:
+        lines = (map(_toml, value[i : i + IN_A_LINE]) for i in range(0, len(value), IN_A_LINE))
+        return "".join(("[\n", *(f"  {', '.join(line)},\n" for line in lines), "]"))
     return json.dumps(value, ensure_ascii=False, allow_nan=False)
 
 

@@ -43,11 +43,12 @@ class Study:
 
 class Answers(NamedTuple):
     """Results of some rows: wear in mm and its relative error (rows, cycles), cycles to the wear
-    depth (rows,), status and reason (rows,)."""
+    depth and their relative error (rows,), status and reason (rows,)."""
 
     bearing_wear_mm: FloatArray
     error_estimate: FloatArray
     cycles_to_wear: FloatArray
+    cycles_to_wear_error: FloatArray
     status: NDArray[np.uint8]
     reason: list[str]
 
@@ -59,8 +60,9 @@ def solve_rows(study: Study, columns: Mapping[str, FloatArray]) -> Answers:
     """
     rows = len(next(iter(columns.values())))
     wear, error = np.full((2, rows, len(study.cycles)), np.nan)
-    life, status = np.full(rows, np.nan), np.zeros(rows, dtype=np.uint8)
-    answers = Answers(wear, error, life, status, [""] * rows)
+    life, life_error = np.full((2, rows), np.nan)
+    status = np.zeros(rows, dtype=np.uint8)
+    answers = Answers(wear, error, life, life_error, status, [""] * rows)
     scenes: dict[int, Scene] = {}
     for row in range(rows):
         try:
@@ -106,6 +108,7 @@ def _fill_in(study: Study, scenes: Mapping[int, Scene], answers: Answers) -> Non
     if study.until_wear is not None:
         life = cycles_to_depth(valid, study.until_wear, study.rtol)
         answers.cycles_to_wear[places] = life.cycles[:, 0]
+        answers.cycles_to_wear_error[places] = life.error[:, 0]
     answers.bearing_wear_mm[places] = wear.u_c
     answers.error_estimate[places] = wear.error
     for row, error in zip(places.tolist(), wear.error.max(axis=1).tolist(), strict=True):

@@ -81,9 +81,10 @@ def study(
     Returns
     -------
     xarray.Dataset
-        `bearing_wear_mm`, `error_estimate`, `cycles_to_wear`, `status` and `reason`, with a
-        dimension for each key of a grid or one of samples, and one of cycles. The attribute
-        `notices` lists implausible magnitudes, with the number of rows and the worst of them.
+        `bearing_wear_mm`, `error_estimate`, `cycles_to_wear` and `cycles_to_wear_error` (if a
+        depth is given), `status` and `reason`, with a dimension for each key of a grid or one of
+        samples, and one of cycles. The attribute `notices` lists implausible magnitudes, with the
+        number of rows and the worst of them.
 
     Raises
     ------

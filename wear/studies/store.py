@@ -48,6 +48,9 @@ VARIABLES = (
     Variable("bearing_wear_mm", "float64", True, "mm", "wear of the bearing"),
     Variable("error_estimate", "float64", True, "1", "estimated relative error of the wear"),
     Variable("cycles_to_wear", "float64", False, "1", "number of cycles to the wear depth"),
+    Variable(
+        "cycles_to_wear_error", "float64", False, "1", "estimated relative error of that number"
+    ),
     Variable("reason", "string", False, "", "why the row has no answer"),
     Variable("status", "uint8", False, "", "outcome of the row"),
 )
@@ -77,7 +80,7 @@ class Store:
     @property
     def _variables(self) -> tuple[Variable, ...]:
         with_life = self.study.until_wear is not None
-        return tuple(v for v in VARIABLES if with_life or v.name != "cycles_to_wear")
+        return tuple(v for v in VARIABLES if with_life or not v.name.startswith("cycles_to_wear"))
 
     def missing(self) -> Iterator[Chunk]:
         """Yield every chunk that has not been written."""
