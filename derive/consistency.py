@@ -11,7 +11,6 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -19,6 +18,7 @@ from sympy.core.function import AppliedUndef
 from .claims import Term
 from .hypotheses import Hypothesis, Kind
 from .language import defined_by, meant_by
+from .memory import cache
 from .note.model import CLOSURE, WEARING, subject
 from .parts import bound_in
 from .reals import contradictory

@@ -8,12 +8,12 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from .claims import FirstZero, Term, landau_o
+from .memory import cache
 from .symbols import QUANTITIES
 from .written import evaluated, read
 

@@ -199,7 +199,7 @@ class Equation:
         beside = [h for h in self.hypotheses if h.is_setting or h.relation not in own]
         shown = [h for h in beside if h.shown]
         short = (h.relation if h.is_setting else self._in_own_names(h.relation) for h in shown)
-        return (*map(Hypothesis, short), *self._signs)
+        return (*map(Hypothesis, short), *self.signs)
 
     def _in_own_names(self, condition: sp.Basic) -> sp.Basic:
         """Return a condition in names of the equation; of those that it defines only their sign."""
@@ -215,12 +215,11 @@ class Equation:
         return all(isinstance(statement.rule, Assume) for statement in self.statements)
 
     @property
-    def _signs(self) -> tuple[Hypothesis, ...]:
+    def signs(self) -> tuple[Hypothesis, ...]:
         """Return the signs of names that neither the vocabulary nor a definition has."""
         named = {h.relation.args[0] for h in self._naming}
-        signs = dict.fromkeys(sign for statement in self.statements for sign in statement.domains)
-        own = (s for s in signs if s.args[0] not in named and _names([s]) - QUANTITIES.keys())
-        return tuple(map(Hypothesis, own))
+        signs = dict.fromkeys(sign for statement in self.statements for sign in statement.signs)
+        return tuple(sign for sign in signs if sign.relation.args[0] not in named)
 
     @cached_property
     def definitions(self) -> tuple[Hypothesis, ...]:

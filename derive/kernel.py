@@ -26,13 +26,11 @@ import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import InitVar, dataclass, fields
-from functools import cache
 from typing import ClassVar, dataclass_transform
 from weakref import WeakKeyDictionary
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
-from sympy.core.parameters import global_parameters
 from sympy.core.relational import Relational
 
 from .claims import Claim
@@ -40,6 +38,8 @@ from .consistency import inconsistency
 from .hypotheses import Hypothesis, Kind
 from .language import fault, in_time, names, typeset_name, without_time
 from .laws import GENERAL
+from .memory import cache, is_standard
+from .symbols import QUANTITIES
 from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
@@ -164,6 +164,14 @@ class Judgement:
         return tuple(h for h in self.hypotheses if h.shown)
 
     @property
+    def signs(self) -> tuple[Hypothesis, ...]:
+        """Return the signs of names that neither the vocabulary nor a definition has."""
+        named = {h.relation.args[0] for h in self.hypotheses if h.kind is Kind.DEFINITION}
+        free = (each for each in self.domains if each.args[0] not in named)
+        own = (each for each in free if {name for name, _ in names(each)} - QUANTITIES.keys())
+        return tuple(map(Hypothesis, own))
+
+    @property
     def domains(self) -> tuple[sp.Basic, ...]:
         """Return the domains of the names that occur, those of authors included."""
         relations = (self.relation, *(h.relation for h in self.hypotheses))
@@ -212,8 +220,8 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
     each application is computed once, and again if what it gave was changed.
     """
     kind = type(rule)
-    if not global_parameters.evaluate:
-        raise RuleError("no claim is made while SymPy does not evaluate")
+    if not is_standard():
+        raise RuleError("no claim is made while SymPy has other settings than the standard ones")
     if not kind.__module__.startswith(_RULES) or (
         getattr(sys.modules[kind.__module__], kind.__name__, None) is not kind
     ):

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from functools import cache
 from itertools import chain, repeat
 
 import sympy as sp
@@ -40,6 +39,7 @@ from .claims import (
     landau_o,
 )
 from .laws import GENERAL
+from .memory import cache
 from .note.model import FIELDS
 from .parts import bound, bound_in, is_slope_of_law, nonnegative, positive
 from .reals import holds
@@ -59,6 +59,7 @@ _HEADS = frozenset(
 )
 _MODEL = frozenset(f.__name__ for f in FIELDS) | DATA | CLOCKS | EXTREMES
 _MARKS = str.maketrans("", "", " {}")
+_OPERATORS, _OPERANDS = ("d", "max", "min"), frozenset(QUANTITIES) | CLOCKS
 _FACES = frozenset(quantity.latex.translate(_MARKS) for quantity in QUANTITIES.values())
 _WORDS = frozenset(head.__name__ for head in _HEADS) | {
     *accepted_latex_functions,
@@ -82,9 +83,8 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
 }
 _LAW = GENERAL.phi.func
 _FUNCTIONS = frozenset((_LAW, landau_o))
-_OF_TIME = "|".join(head.__name__ for head in (*_HEADS, _LAW, sp.sqrt))
-_NOW = re.compile(rf"\b(?!(?:{_OF_TIME})\()(\w+)\(t\)")
-"""A field at the present time, in print."""
+_NOW = re.compile(rf"\b({'|'.join(q.name for q in QUANTITIES.values() if q.varies)})\(t\)")
+"""A field of the vocabulary at the present time, in print."""
 _PARTS = {
     **{FirstZero: 2, Drift: 5, Oscillation: 5, Continuous: 1, SlowEquation: 2, sp.besseli: 2},
     **dict.fromkeys((sp.Abs, sp.exp, sp.log, sp.tanh, sp.sin, sp.cos, sp.LambertW, sp.Ei), 1),
@@ -360,17 +360,19 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
 
 
 def _shows(name: str) -> bool:
-    """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary."""
+    """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary, its
+    differential and its extremes."""
     shown = typeset_name(name)
     unlike = shown.translate(_MARKS) not in _FACES
+    unlike &= not any(name == operator + of for operator in _OPERATORS for of in _OPERANDS)
     return unlike and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 
 
 def without_time(text: str) -> str:
-    """Return printed text with f for each field f(t).
+    """Return printed text with f for each field f(t) of the vocabulary.
 
-    >>> without_time("u_c(t) + exp(t)")
-    'u_c + exp(t)'
+    >>> without_time("u_c(t) + exp(t) + x(t)")
+    'u_c + exp(t) + x(t)'
     """
     return _NOW.sub(r"\1", text)
 

@@ -62,7 +62,8 @@ def own_law(text: str) -> tuple[ContactLaw, float]:
             if r not in phi.free_symbols or phi.has(sp.zoo, sp.nan, sp.I):
                 raise UsageError(f"phi = {text} is no function of r = h/sigma")
             if not smooth_everywhere(phi):
-                raise UsageError(f"phi = {text} has a kink")
+                said = "has a kink or a pole; phi must be smooth for every r, also below 0"
+                raise UsageError(f"phi = {text} {said}")
             if faults := contact_law.faults_of_signs(phi):
                 raise UsageError("\n".join(faults))
             (value_loss, value), (slope_loss, slope) = map(_best, (phi, sp.diff(phi, r)))

@@ -10,7 +10,6 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
 
 import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
@@ -19,6 +18,7 @@ from sympy.core.relational import Relational
 
 from .claims import FirstZero, HasValue, Term, landau_o
 from .laws import GENERAL
+from .memory import cache
 from .note.model import WEARING
 from .symbols import t
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterator
-from functools import cache
 
 import flint
 import sympy as sp
@@ -28,6 +27,7 @@ from sympy.core.relational import Relational
 
 from .claims import HasValue
 from .laws import GENERAL
+from .memory import cache
 from .parts import certain, is_slope_of_law, needs, positive
 from .repairs import ball
 

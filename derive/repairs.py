@@ -20,7 +20,7 @@ References
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, reduce
+from functools import reduce
 from importlib import import_module
 from operator import add, mul
 from typing import Any
@@ -29,6 +29,8 @@ import sympy as sp
 from flint import arb, ctx, fmpq
 from sympy.core import relational
 from sympy.core.cache import clear_cache
+
+from .memory import cache
 
 _BITS = (64, 256, 1024, 4096, 16384)
 _FUNCTIONS: dict[type, Callable[..., arb]] = {

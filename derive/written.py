@@ -18,7 +18,6 @@ import itertools
 import operator
 import re
 from collections.abc import Mapping
-from functools import cache
 from types import MappingProxyType
 from typing import Any
 
@@ -28,6 +27,7 @@ from sympy.core.relational import Relational
 
 from .claims import landau_o
 from .laws import r
+from .memory import cache
 from .rules.limits import forever, later
 from .symbols import QUANTITIES, symbol, t
 

@@ -8,6 +8,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from wear import history_files
 from wear.binding import bind
 from wear.cycle_pressures import CyclePressures, cycle_pressures
+from wear.faults import UsageError
 from wear.generated import reaction
 from wear.given_load import GivenLoad
 from wear.history_files import States
@@ -161,15 +163,17 @@ class History:
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a row for each number of cycles, with the columns of the files; needs pandas."""
-        import pandas
-
-        return pandas.DataFrame(self.columns(), index=pandas.Index(self.cycles, name="cycle"))
+        pd = _library("pandas")
+        table: pandas.DataFrame = pd.DataFrame(
+            self.columns(), index=pd.Index(self.cycles, name="cycle")
+        )
+        return table
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the columns along `cycle`, with units and meanings; needs xarray."""
-        import xarray
-
-        dataset = xarray.Dataset(coords={"cycle": self.cycles}, attrs=dict(self._attributes()))
+        dataset: xarray.Dataset = _library("xarray").Dataset(
+            coords={"cycle": self.cycles}, attrs=dict(self._attributes())
+        )
         for name, values in self.columns().items():
             about = {"units": unit_of(name) or "1", "long_name": COLUMNS[name].meaning}
             dataset[name] = ("cycle", values, about)
@@ -246,3 +250,11 @@ class History:
             "notices": json.dumps(self.notices),
             "complete": json.dumps(not self.stopped),
         }
+
+
+def _library(name: str) -> Any:
+    """Return an optional library; UsageError with the remedy if it is not installed."""
+    try:
+        return import_module(name)
+    except ModuleNotFoundError as fault:
+        raise UsageError(f"this table needs {name}: pip install {name}") from fault

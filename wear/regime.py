@@ -200,11 +200,20 @@ def _without_cutoff(case: _Case) -> Asymptote:
     end = case.vanishing
     if end is None:
         return _steady(case)
-    if case.value(formula.gap_at_peak, end) > 0:
-        said = "wear approaches this depth, logarithmically slowly, as the roughness vanishes"
+    gap = case.value(formula.gap_at_peak, end)
+    if gap > 0 or (gap == 0 and _has_sharp_peaks(case.load)):
+        how = "logarithmically slowly" if gap > 0 else "exponentially"
+        said = f"wear approaches this depth, {how}, as the roughness vanishes"
         notices = (said, *case.doubts)
         return _result(case, "saturating", saturation_wear_mm=float(end), notices=notices)
     return _result(case, "finite-time", saturation_wear_mm=float(end), notices=(VANISHES,))
+
+
+def _has_sharp_peaks(load: Load) -> bool:
+    """Return whether the load rises to each of its highest peaks and falls from there with slopes
+    other than zero, so that it spends little time near them."""
+    tops = [peak for peak in load.peaks if load(peak) == load.maximum]
+    return all(top in load.kinks and load.slope(top) < 0.0 for top in tops)
 
 
 def steady_wear_per_cycle(scene: Scene) -> float:

@@ -44,9 +44,14 @@ def faults_of_signs(phi: sp.Expr) -> tuple[str, ...]:
     slope, hint = sp.diff(phi, r), "if it is, write phi otherwise"
     faults = []
     if sign(phi) != 1:
-        faults.append(f"phi must be positive: {phi} is not proved to be positive; {hint}")
+        faults.append(
+            f"phi must be positive: {phi} is not proved to be positive for every r; {hint}"
+        )
     if sign(slope) != -1:
-        faults.append(f"phi must decrease: its slope {slope} is not proved to be negative; {hint}")
+        faults.append(
+            f"phi must decrease: its slope {slope} is not proved to be negative for every r, "
+            f"also below 0; {hint}"
+        )
     return tuple(faults)
 
 

@@ -61,7 +61,7 @@ def _row(step: Judgement, numbers: Mapping[StepKey, int]) -> dict[str, Any]:
         "rule": step.rule.sentence(*(f"({n})" for n in parents)),
         "theorem": step.rule.source,
         "parents": parents,
-        "assumptions": list(dict.fromkeys(c.stated for c in step.conditions)),
+        "assumptions": list(dict.fromkeys(c.stated for c in (*step.conditions, *step.signs))),
         "hypotheses": [h.text for h in step.hypotheses],
         "status": kind if all(check.passed for check in outcomes) else "fails",
         "coq": proved_by_coq(step),
@@ -80,7 +80,7 @@ def _text(row: Mapping[str, Any], step: Judgement) -> str:
     status = "" if row["status"] == "given" else f" [{row['status']}{by_coq}]"
     claim = sp.pretty(step.relation, use_unicode=terminal.shows_formulas(), wrap_line=False)
     lines = ["", *claim.splitlines(), ""]
-    lines += sentences(step.hypotheses)
+    lines += sentences((*step.hypotheses, *step.signs))
     if row["remark"]:
         lines.append(row["remark"])
     shown = textwrap.indent("\n".join(lines).rstrip(), _INDENT)

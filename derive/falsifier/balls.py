@@ -11,7 +11,7 @@ Key results
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, reduce
+from functools import reduce
 from itertools import pairwise
 from operator import mul
 from typing import Any
@@ -19,6 +19,8 @@ from typing import Any
 import sympy as sp
 from flint import arb, fmpq
 from flint.utils.flint_exceptions import DomainError
+
+from ..memory import cache
 
 Number = Any  # fmpq or arb, which mix
 BITS = 320

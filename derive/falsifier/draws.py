@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -24,6 +24,7 @@ from sympy.solvers.solveset import NonlinearError, linear_coeffs
 
 from ..claims import FirstZero, mapped
 from ..laws import GENERAL, written_out
+from ..memory import cache
 from ..symbols import DATA, symbol, t
 from .balls import UndecidedError
 from .expansion import ExpansionTerm

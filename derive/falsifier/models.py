@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import sympy as sp
 from flint import arb, ctx, fmpq
 from sympy.core.function import AppliedUndef
 
+from ..memory import cache
 from ..symbols import symbol, t
 from . import trend
 from .balls import BITS, ZERO, NoValueError, Number, UndecidedError, UndefinedError, ball, fraction

@@ -18,7 +18,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,6 +26,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
+from ..memory import cache
 from ..symbols import t
 from .balls import UndecidedError
 

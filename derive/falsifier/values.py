@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from itertools import chain
 from math import tau
 from operator import eq, ge, gt, le, lt, ne
@@ -31,6 +31,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
 from ..claims import Drift, FirstZero, Term
+from ..memory import cache
 from ..symbols import symbol, t
 from .balls import (
     BITS,

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 
 import sympy as sp
 from flint import fmpq
@@ -35,6 +35,7 @@ from ..claims import (
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, domain
 from ..language import without_time
+from ..memory import cache
 from ..symbols import symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, draw_model, slides_fast, slopes_over_data, with_law

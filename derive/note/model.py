@@ -81,7 +81,7 @@ WORDS = MappingProxyType(
         REACTION: "equilibrium of the pin, Eq. (2)",
         SUPPORT: "equilibrium of the bearing, Eq. (2)",
         ROUGHNESS: "equivalent roughness, Eq. (3)",
-        **{contact(law): "contact law with its cutoff, Eq. (4)" for law in (TANH, GENERAL)},
+        contact(TANH): "contact law with its cutoff, Eq. (4)",
         **dict.fromkeys(ARCHARD[::2], "Archard's law, Eq. (5)"),
         **dict.fromkeys(ARCHARD[1::2], "roughness changes with wear, Eq. (5)"),
         SLIP[0]: "slip rate of the pin, section 2.4",

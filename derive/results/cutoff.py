@@ -76,7 +76,7 @@ arrest_depth = Insert(sp.Eq(u_stop, (3 * sigma_c0 - h_0 + U_max) / (1 - 3 * f_c)
 """The wear at which the peak of the load just makes contact."""
 
 no_contact = Insert(*stated("no-contact"))(arrest_depth, name="margin and arrest depth")
-"""Beyond the arrest depth the margin is negative at every load."""
+"""The margin in terms of the distances from the arrest depth and from the peak of the load."""
 
 _at_lowest = define(sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0), rougher)
 permanent_contact = Insert(sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1)))(
@@ -87,7 +87,7 @@ permanent_contact = Insert(sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c
 always_contact = Insert(*stated("always-contact"))(
     permanent_contact, name="margin and permanent contact"
 )
-"""Beyond that depth the margin is positive at every load."""
+"""The margin in terms of the distances from that depth and from the lowest load."""
 
 model = bearing_only()
 geometry = (

@@ -7,7 +7,7 @@ Overview
     positive, if it has one, and wear cannot pass that depth.  At the zero 9 sigma^2 = h^2, a
     quadratic equation.
 Key results
-    margin_curvature          the second derivative of the margin
+    margin_curvature          the curvature of the margin, in two forms
     arrest_depth_two_solids   its first zero, in the form without cancellation
 Remarks
     There is no arrest where the discriminant is negative or the root is not positive: for one
@@ -50,7 +50,7 @@ margin_curvature = Insert(
         3 * (q**2 * (sigma_a0**2 + sigma_c0**2) - p_1**2) / sigma_stop**3,
     )
 )(assume(POSSIBLE), name="curvature of the margin")
-"""The second derivative of the margin."""
+"""The curvature of the margin, in two forms."""
 
 _wear = sp.Symbol("u", positive=True)
 _lost = FirstZero(room.subs(u_stop, _wear), _wear)

@@ -5,10 +5,11 @@ Overview
     bound, the rate is close to its exponential tail, and wear grows like the logarithm of the
     cycles.  For f_c < 0 the roughness would vanish at the wear sigma_c0/|f_c|.  There the gap
     at the peak of the load is h* = h_0 + sigma_c0/|f_c| - max U_a.  If it is open, wear
-    saturates at that depth, logarithmically slowly; if not, roughness vanishes in finite time.
+    saturates at that depth, logarithmically slowly; if the load closes it, roughness vanishes in
+    finite time; and if the peak of the load just closes it, in finite time if the peak is smooth.
 Key results
     tail               the rate is below its exponential tail, by a factor that tends to 1
-    logarithmic_wear   f_c = 0: the wear of the tail, for any periodic load
+    logarithmic_wear   f_c = 0: the wear of the tail, under a sine load
     saturating_wear    f_c < 0, h* > 0: the number of cycles to a roughness, static load
     closed_gap         the rate at the peak of the load, where h* < 0
 """

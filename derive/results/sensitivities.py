@@ -5,7 +5,7 @@ Overview
     through tanh(4 - 2/f_c) alone.  An elasticity is the relative change of the result per
     relative change of a datum; that of f_c is (4/f_c) (1 - y), with y = p_inf/p_max, and is
     large at a low asymptotic pressure.  Inverting (21) identifies f_c or K_c from measured
-    wear; the first integral gives f_c from one measured rate, at any time.
+    wear; the first integral gives f_c from a pressure and the wear at one instant, after the start.
 Key results
     sensitivity(...)    d u_cum/da or d p_inf/da
     elasticity(...)     the same, relative

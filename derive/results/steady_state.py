@@ -15,7 +15,7 @@ Key results
     SteadyState.pressure    p -> p_max phi(1/f_c)
     SteadyState.approach    |ln(rate/limit)| <= m |b/sigma|, where |phi'/phi| <= m
 Remarks
-    The proof needs neither (14) nor (16).  It is shorter than one by contradiction: the lower
+    The proof needs neither (14) nor (16).  It is shorter than one by contradiction: the upper
     bound of h/sigma holds for all time, before anything is known of u_c.
 """
 

@@ -4,7 +4,8 @@ Overview
     With pin wear u_a = kappa u_c the equivalent roughness is a root of a quadratic in u_c,
     sigma^2 = sigma_a0^2 + sigma_c0^2 + 2 p_1 u_c + q^2 u_c^2, and the gap opens by g per wear.
     If the roughness changes and never vanishes (p_1 > -q S with S the roughness at the start),
-    wear is unbounded and h/sigma tends to g/q: x_inf = 4 - 2 g/q, for every sign of f_a and f_c.
+    wear is unbounded and h/sigma tends to g/q: x_inf = 4 - 2 g/q.  (A negative slope would make a
+    roughness negative in the end, which the note excludes.)
 Key results
     TwoSolids.definitions  q, g and p_1
     TwoSolids.squares      the identity by which sigma does not vanish

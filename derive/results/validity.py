@@ -8,8 +8,8 @@ Overview
     calculation with ten digits.
 Key results
     share       p_inf/p_max = 1/(1 + e^(4/f_c - 8))
-    criterion   tanh(4 - 2/f_c) > -1, without condition
-    share_slope d/df_c of it is positive
+    criterion   tanh(4 - 2/f_c) > -1, for f_c != 0
+    share_slope the slope of the share with f_c, in terms of the share
     threshold   p_inf/p_max > epsilon if and only if f_c > 4/(8 + ln(1/epsilon - 1))
     one_eighth  the case f_c > 1/8
     RESOLUTIONS epsilon of several number formats
@@ -50,13 +50,13 @@ share = Insert(sp.Eq((1 + sp.tanh(4 - 2 / f_c)) / 2, 1 / (1 + sp.exp(4 / f_c - 8
 """(22) as a share of p_max, in the form to compute with."""
 
 criterion = Arithmetic(sp.Gt(sp.tanh(4 - 2 / f_c), -1))(sloped, name="the criterion always holds")
-"""The note's criterion holds without condition."""
+"""The note's criterion holds for every f_c but 0."""
 
 _value = share.claim.rhs
 share_slope = Insert(sp.Eq(sp.diff(_value, f_c), 4 / f_c**2 * _value * (1 - _value)))(
     sloped, name="slope of the share"
 )
-"""The asymptotic pressure grows with f_c."""
+"""The slope of the share with f_c, a product of positive factors."""
 
 bound = 4 / (8 + sp.log(1 / epsilon - 1))
 """The least f_c of a resolution epsilon."""

@@ -14,7 +14,6 @@ References
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import cache
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -22,6 +21,7 @@ from sympy.core.relational import Relational
 from ..claims import Limit
 from ..hypotheses import BOUNDED_LOAD, CONTINUOUS, LOAD, PERIODIC
 from ..kernel import Conclusion, Judgement, Rule, RuleError
+from ..memory import cache
 from ..parts import nonnegative, positive
 from ..reals import LAW, holds
 from ..symbols import symbol, t

@@ -27,7 +27,7 @@ class Arithmetic(Theorem):
 
     claim: sp.Basic
     words = "This follows from {all}."
-    alone = "This holds for all numbers."
+    alone = "This holds for all values in their domains."
     source = "decided by z3: Jovanovic, de Moura, Solving nonlinear arithmetic, 2012"
 
     def prove(self, *premises: Judgement) -> Conclusion:

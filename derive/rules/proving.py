@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Collection, Iterable, Iterator, Mapping, Set
-from functools import cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -29,6 +28,7 @@ from ..claims import Asymptotic, Continuous, FirstZero, HasValue, Limit, Propert
 from ..hypotheses import DIFFERENTIABLE, LOAD
 from ..kernel import Judgement, RuleError
 from ..laws import r
+from ..memory import cache
 from ..note.model import WEARING
 from ..parts import bound, bound_in, certain, needs, positive
 from ..reals import LAW, holds, sign

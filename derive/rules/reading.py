@@ -10,7 +10,6 @@ Key results
 from __future__ import annotations
 
 from collections import Counter
-from functools import cache
 from typing import TypeVar
 
 import sympy as sp
@@ -19,6 +18,7 @@ from sympy.core.function import AppliedUndef
 from ..claims import Claim, Conjunction, Drift, Equality, FirstZero, Inequality, Limit, Term
 from ..hypotheses import Hypothesis
 from ..kernel import Judgement, RuleError, listed
+from ..memory import cache
 from ..parts import bound, certain, needs
 from ..reals import LAW, holds
 from ..symbols import CLOCKS, symbol, t

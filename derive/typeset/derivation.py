@@ -86,9 +86,10 @@ class Derivations:
 
     def start(self, identifier: str) -> tuple[StepText, ...]:
         """Return the hypotheses on which an equation rests, as steps without a sentence."""
-        chain = self._equations[identifier].steps
-        given = (each for each in chain if is_hypothesis(each))
-        return tuple(dict.fromkeys(self._result(each, identifier) for each in given))
+        equation = self._equations[identifier]
+        given = (self._result(each, identifier) for each in equation.steps if is_hypothesis(each))
+        signs = (StepText("", "", latex(sign.relation)) for sign in equation.signs)
+        return tuple(dict.fromkeys((*given, *signs)))
 
     def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[StepText, ...]:
         """Return the steps of statements, and keep the place of each for later references."""

@@ -17,18 +17,16 @@ from itertools import permutations
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 
 from ..claims import landau_o
-from ..laws import GENERAL
 from ..symbols import EXTREMES, QUANTITIES, symbol, t
 
 _RELATION = re.compile(r" (=|<|>|\\leq|\\geq|\\neq) ")
 
 
 _WORD = re.compile(r"[A-Za-z]{2,}")
-_TAU, _LAW = symbol("tau"), GENERAL.phi.func.__name__
+_TAU = symbol("tau")
 _LATER = frozenset((t, symbol("T")))
 _OPEN = (sp.Limit, sp.Integral)
 """Heads whose scope has no end of its own in print."""
@@ -76,8 +74,6 @@ class _NotePrinter(LatexPrinter):
             body = QUANTITIES[name].latex
             if expr.args != (t,):
                 body += f"({self._print(expr.args[0])})"
-        elif isinstance(expr, AppliedUndef) and expr.args == (_TAU,) and name != _LAW:
-            body = self._own_name(name)  # a field of scaled time
         else:
             return str(super()._print_Function(expr, exp))
         return body if exp is None else rf"{body}^{{{exp}}}"

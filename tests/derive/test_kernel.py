@@ -7,14 +7,17 @@ from types import SimpleNamespace
 
 import pytest
 import sympy as sp
+from sympy.core.parameters import global_parameters
 
 from derive.check import step_checks
 from derive.claims import Equality, Inequality
+from derive.cli import main
 from derive.equations import Equation, abbreviated
 from derive.hypotheses import PERIODIC, ROUGHENING, Hypothesis, Kind
 from derive.kernel import Conclusion, Judgement, Rule, RuleError, chain, infer, replay_fault
 from derive.laws import EXPONENTIAL, GENERAL, TANH
-from derive.note.model import CLOSURE, at_every_closure
+from derive.note.model import CLOSURE, at_every_closure, contact
+from derive.reals import holds
 from derive.rules.algebra import Insert, substitute
 from derive.rules.assumption import Assume, assume, defined
 from derive.rules.calculus import rigid
@@ -242,10 +245,26 @@ def test_a_function_with_signs_of_its_own_is_refused(sign: str) -> None:
         Arithmetic(claim)()
 
 
+def test_other_settings_of_sympy_leave_no_trace() -> None:
+    """exp(x) is then the power of a base, and so all exponentials would have one argument, e."""
+    x, y, z = symbols("theta x_inf f_c")
+    goal = sp.Ge(sp.tanh(x) - sp.tanh(y) + sp.exp(z), 0, evaluate=False)  # -2 for -5, 5, -5
+    global_parameters.exp_is_pow = True
+    try:
+        holds(goal, frozenset())
+        with pytest.raises(RuleError, match="other settings"):
+            Arithmetic(goal)()
+    finally:
+        global_parameters.exp_is_pow = False
+    assert not holds(goal, frozenset())
+    with pytest.raises(RuleError, match="missing premise"):
+        Arithmetic(goal)()
+
+
 def test_nothing_is_concluded_while_sympy_does_not_evaluate() -> None:
     """Then it holds 0/f_c apart from 0, and its modulus for positive."""
     apart = ne(f_c, 0)
-    with sp.evaluate(False), pytest.raises(RuleError, match="does not evaluate"):
+    with sp.evaluate(False), pytest.raises(RuleError, match="other settings"):
         Arithmetic(sp.Eq(h_0 * sp.Abs(0 * (1 / f_c)), 5 * sp.Abs(0 * (1 / f_c))))(apart)
 
 
@@ -368,3 +387,34 @@ def test_a_typeset_form_abbreviates_by_new_names_alone(shown: str, where: str) -
     trivial = Insert(equal(u_c, u_c))()
     said = {"shown": shown, "where": where}
     assert not Equation("x", "", "", (trivial,), texts=said).typeset_agrees
+
+
+def test_a_law_that_is_not_the_notes_is_shown() -> None:
+    law = assume(Hypothesis(contact(GENERAL), Kind.MODEL))
+    assert [shown.words for shown in law.conditions] == [""]
+    assert "phi" in law.conditions[0].text
+    assert "phi" in Hypothesis(at_every_closure(GENERAL)).text
+    assert not assume(Hypothesis(contact(TANH), Kind.MODEL)).conditions
+
+
+@pytest.mark.parametrize("name", ["du_c", "dt", "dT", "maxU_a", "minh", "E"])
+def test_no_name_looks_like_an_operation(name: str) -> None:
+    with pytest.raises(RuleError, match="no real quantity"):
+        eq(sp.Symbol(name, real=True), h_0)
+
+
+def test_a_field_of_ones_own_is_told_from_a_constant() -> None:
+    field, constant = sp.Function("x", real=True), sp.Symbol("x", real=True)
+    fields = (Hypothesis(sp.Gt(field(time), 0)) for time in (t, symbols("tau")[0]))
+    for mine in fields:
+        assert mine.text != Hypothesis(sp.Gt(constant, 0)).text
+        assert mine.latex != Hypothesis(sp.Gt(constant, 0)).latex
+
+
+def test_the_sign_of_a_name_of_ones_own_is_a_condition_of_each_step(capsys) -> None:
+    positive = sp.Symbol("x", positive=True)
+    assert [sign.text for sign in Arithmetic(sp.Gt(positive, 0, evaluate=False))().signs] == [
+        "x > 0"
+    ]
+    assert main(["steps", "pressure-iteration"]) == 0
+    assert "if x > 0" in capsys.readouterr().out

@@ -57,6 +57,13 @@ def test_a_cycle_knows_what_its_nodes_miss(scene, nodes, tolerance):
     assert np.all(off <= 3 * few.error + 1e-13 * many.increment)
 
 
+def test_cycles_end_at_their_deadline():
+    model, load = bind(load_scene("section4-cutoff")), SINE
+    cycle = switched_period_map([model], [load], [edge_of_contact(model, load)], 8, 1e-10)
+    with pytest.raises(TimeoutError):
+        cycle._replace(deadline=0.0).advance(np.zeros(1), np.zeros(1, dtype=int))
+
+
 @pytest.mark.parametrize("k", [None, 1e5])
 def test_rows_on_which_contact_lasts_are_taken_together(k):
     """A noisy record took as many steps as it has rows."""

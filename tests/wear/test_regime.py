@@ -15,7 +15,7 @@ from wear import cycles
 from wear.binding import bind
 from wear.cycle_means import cycle_mean
 from wear.generated import asymptotics as formula
-from wear.load import Sine, Table
+from wear.load import Harmonics, Sine, Table
 from wear.regime import Asymptote, asymptote
 from wear.scene import builtin_names, load_scene
 from wear.scene_orbit import SceneOrbit
@@ -267,3 +267,15 @@ def test_wear_has_settled_when_it_is_said_to_have(slope):
     assert abs(excess[0]) > 1.5e-6
     assert abs(excess[1]) == pytest.approx(1e-6, rel=0.02)
     assert abs(excess[2]) < 2e-7
+
+
+def test_roughness_that_a_sharp_peak_just_exhausts_does_not_vanish():
+    """h* is 0: near a smooth peak the roughness vanishes in finite time, near a corner never."""
+    scene = load_scene("section4").with_(
+        {"bearing.roughness_mm": 2.0**-11, "bearing.roughness_growth": -0.5,
+         "contact.closure_mm": 2.0**-10}
+    )  # fmt: skip
+    triangle = Table((0.0, 0.03, 0.06), (0.0, 2.0**-9, 0.0))
+    smooth = Harmonics(2.0**-10, (-(2.0**-10),), (), 0.06)
+    assert asymptote(scene.with_({"load": triangle})).regime == "saturating"
+    assert asymptote(scene.with_({"load": smooth})).regime == "finite-time"

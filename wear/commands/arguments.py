@@ -140,7 +140,7 @@ def cycles(text: str) -> tuple[int, ...]:
         entries = ", ".join(f'"{shown(entry)}"' for entry in wrong[:10])
         entries += ", ..." * (len(wrong) > 10)
         raise ArgumentTypeError(
-            f"{entries}: not a number of cycles; "
+            f"{entries}: not a number of cycles, or not a rising range; "
             f"give whole numbers from 0 to {MOST_CYCLES:.0e} and ranges of up to "
             f"{MOST_IN_RANGE:.0e}, such as 1,9000,1e8 or 0:9000"
         )

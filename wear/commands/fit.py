@@ -136,7 +136,8 @@ def _lines(document: dict[str, Any]) -> Iterator[str]:
     if after["band_of_forecast_times"] > WORTHWHILE:
         return
     which = f"of specimen {after['specimen']} " * bool(after["specimen"])
-    yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows the forecast "
+    what = "the forecast" if document["forecast"] else "a forecast to ten times the cycles read"
+    yield (f"\nOne more reading {which}after cycle {after['cycles']:.6g} narrows {what} "
            f"most, to {after['band_of_forecast_times']:.0%} of its band.")  # fmt: skip
 
 

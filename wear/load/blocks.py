@@ -53,7 +53,7 @@ def _blocks(raw: object, info: ValidationInfo) -> tuple[Block, ...]:
 
 @table("load", kind="blocks")
 class Blocks(SceneTable):
-    """Periodic loads one after the other, each from phase 0, and the list again `repeat` times.
+    """Periodic loads one after the other, each from phase 0; the whole list runs `repeat` times.
 
     U_a may jump between blocks; there the value is that of the new block.
     """
@@ -61,7 +61,7 @@ class Blocks(SceneTable):
     blocks: Annotated[tuple[Block, ...], PlainValidator(_blocks)] = Field(
         description="[[load.blocks]] tables: a periodic load each, and its cycles"
     )
-    repeat: Count = Field(default=1, description="how often the list is run")
+    repeat: Count = Field(default=1, description="how many times the whole list runs")
 
     @model_validator(mode="after")
     def _check_count(self) -> Self:

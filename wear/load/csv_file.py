@@ -282,7 +282,12 @@ def _parse(text: str, form: RowsFile) -> FloatArray:
     if valid:
         from_first = isinstance(form, TableFile) and form.repeat
         columns[0] -= columns[0, 0] if from_first else 0.0
-        faults += [(numbers[at], problem, cure) for at, problem, cure in order_faults(columns[0])]
+        starts = not faults or numbers[0] < faults[0][0]  # else the first row is faulty itself
+        faults += [
+            (numbers[at], problem, cure)
+            for at, problem, cure in order_faults(columns[0])
+            if at > 0 or starts
+        ]
     if not faults and not 2 <= len(valid) <= MOST_ROWS:
         wrong = "few" if len(valid) < 2 else "many"
         problem = f"too {wrong} rows stand below: {len(valid)}"

@@ -99,9 +99,14 @@ def count_scenes(
     models, loads = [each.model for each in requests], [each.load for each in requests]
     edges = [each.edge for each in requests]
     size = settings(rtol, [edge.pieces.begin for edge in edges])
-    coarse = switched_period_map(models, loads, edges, size.phase_nodes, size.endpoint_tolerance)
     finer = max(ROUNDOFF, FINER * size.endpoint_tolerance)
-    fine = switched_period_map(models, loads, edges, size.finer_nodes, finer)
+    coarse, fine = (
+        switched_period_map(models, loads, edges, *each)._replace(deadline=deadline + grace)
+        for each in (
+            (size.phase_nodes, size.endpoint_tolerance),
+            (size.finer_nodes, finer),
+        )
+    )
     counts = [_count(each, rtol, deadline) for each in requests]
     answers: list[BatchSolver] = [frozen_cycles(coarse), ranges_by(coarse)]
     answers += [cycles_by(coarse), cycles_by(fine)]

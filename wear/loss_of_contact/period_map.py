@@ -18,6 +18,7 @@ Key results
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -64,7 +65,8 @@ class SwitchedPeriodMap(NamedTuple):
     """The map of a cycle of some scenes, of each of which `cycles` has one. Their `pieces` come one
     after the other, from the numbers `first` (scenes + 1,) on; `tops` and `bottoms` (scenes,
     pieces) are the highest and lowest displacements on each, mm. On a step of contact there are the
-    nodes of the `rule`, which resolve the rate to `tolerance`."""
+    nodes of the `rule`, which resolve the rate to `tolerance`. After the `deadline`
+    (`time.monotonic()`) cycles end with a `TimeoutError`."""
 
     cycles: Cycles
     pieces: Piece
@@ -73,6 +75,7 @@ class SwitchedPeriodMap(NamedTuple):
     bottoms: FloatArray
     rule: Gauss
     tolerance: float
+    deadline: float = np.inf
 
     def advance(self, wear: FloatArray, scene: IntArray) -> CycleResult:
         """Return the increment of a cycle from each wear (k,), mm, of the scenes (k,)."""
@@ -101,6 +104,8 @@ class SwitchedPeriodMap(NamedTuple):
         tops, bottoms, first = self.tops[scene], self.bottoms[scene], self.first[scene]
         after, alone_until = np.full(len(wear), -1), np.zeros(len(wear), dtype=np.intp)
         while True:
+            if time.monotonic() > self.deadline:
+                raise TimeoutError
             needed = displacement_at(cycles.model, wear + added)
             following = _next(tops > needed[:, None], after + 1)
             todo = following < tops.shape[1]

@@ -71,10 +71,10 @@ class Bearing(SceneTable):
     hardness_MPa: Positive = Field(description="hardness H_c")
     wear_coefficient: Positive = Field(description="Archard's wear coefficient K_c")
     roughness_mm: NonNegative = Field(
-        description="surface roughness sigma_c0 before any wear (not zero on both solids)"
+        description="surface roughness sigma_c0 before any wear (must not be zero on both solids)"
     )
     roughness_growth: Real = Field(
-        description="f_c = d sigma_c / d u_c, change of roughness with own wear"
+        description="f_c = d sigma_c / d u_c, change of roughness per unit of its own wear"
     )
 
 
@@ -85,10 +85,10 @@ class Pin(SceneTable):
     hardness_MPa: Positive = Field(description="hardness H_a")
     wear_coefficient: NonNegative = Field(description="Archard's wear coefficient K_a")
     roughness_mm: NonNegative = Field(
-        description="surface roughness sigma_a0 before any wear (not zero on both solids)"
+        description="surface roughness sigma_a0 before any wear (must not be zero on both solids)"
     )
     roughness_growth: Real = Field(
-        description="f_a = d sigma_a / d u_a, change of roughness with own wear"
+        description="f_a = d sigma_a / d u_a, change of roughness per unit of its own wear"
     )
 
 

@@ -220,7 +220,7 @@ function symbols(text) {
 // Long-time behaviour, from generated formulas: the regime and what is known of it.
 
 const REGIMES = {
-  steady: "steady: every cycle wears as much as the one before, in the end",
+  steady: "steady: in the long run every cycle wears off the same amount",
   partial: "steady, with contact in the same part of every cycle",
   closing: "steady: wear of the pin closes the gap without end",
   alike: "steady: every cycle is like the first",
