@@ -87,7 +87,7 @@ def _is_current(row: Reason, statement: Judgement, condition: Hypothesis) -> boo
 def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, Hypothesis]]:
     """Return the conditions of an equation that the falsifier can drop, by id, text and hash."""
     return {
-        (equation.id, condition.brief, _key(statement)): (statement, condition)
+        (equation.id, condition.brief, key(statement)): (statement, condition)
         for statement in equation.statements
         for condition in statement.conditions
         if not isinstance(condition.relation, Predicate)
@@ -95,7 +95,8 @@ def _places(equation: Equation) -> dict[tuple[str, str, str], tuple[Judgement, H
     }
 
 
-def _key(statement: Judgement) -> str:
+def key(statement: Judgement) -> str:
+    """Return the hash of the hypotheses and the claim of a statement, as rows have it."""
     relations = (statement.relation, *(h.relation for h in statement.hypotheses))
     return hashlib.sha256("\n".join(map(str, relations)).encode()).hexdigest()[:12]
 
@@ -117,9 +118,9 @@ def reason(
     model = tuple(map(inline, broken.model)) if broken else ()
     where = broken.where if broken else ""
     left = inline(broken.left) if broken and broken.left is not None else ""
-    key = _key(statement)
     seed = broken.seed if broken else -1
-    return Reason(identifier, condition.brief, condition.latex, model, where, key, left, seed)
+    about = identifier, condition.brief, condition.latex
+    return Reason(*about, model, where, key(statement), left, seed)
 
 
 def main() -> None:

@@ -39,7 +39,8 @@ class Fault:
 class WearError(Exception):
     """Base of the exceptions for a faulty request, or an accuracy out of reach.
 
-    `SceneError` and `UsageError` are also `ValueError`s, `AccuracyError` an `ArithmeticError`.
+    `SceneError` and `UsageError` are also of type `ValueError`, `AccuracyError` is also an
+    `ArithmeticError`.
     """
 
 

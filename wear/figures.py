@@ -67,7 +67,7 @@ def plot(histories: Mapping[str, History], *, logarithmic: bool = True) -> Figur
     Raises
     ------
     UsageError
-        if there is no run, or something else.
+        if `histories` is empty, or holds anything but runs.
     """
     runs = [*histories.values()] if hasattr(histories, "values") else []
     if not runs or not all(isinstance(run, History) for run in runs):

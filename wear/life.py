@@ -83,7 +83,7 @@ def cycles_until(
     Raises
     ------
     UsageError
-        if a depth is no positive number, or the load does not repeat.
+        if a depth is negative or no number, or the load does not repeat.
 
     >>> life = cycles_until("section4", [1e-3, 5e4])
     >>> [f"{cycles:.4e}" for cycles in life.cycles], [way.value for way in life.reached]

@@ -148,7 +148,7 @@ def _named(function: Callable[..., Any], known: Mapping[str, Any]) -> dict[str, 
 
 
 def asymptote(scene: Scene | str | os.PathLike[str]) -> Asymptote:
-    """Return the long-time behaviour of a scene, or of that of a built-in name or a path.
+    """Return the long-time behaviour of a scene, given as an object, a built-in name or a path.
 
     Raises
     ------

@@ -45,7 +45,10 @@ def conditions() -> str:
     parts = []
     for identifier, rows in groupby(reasons.table(), key=lambda row: row.equation):
         parts.append(f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}")
-        parts.append("\n".join(map(_without, rows)))
+        formulas = [reasons.key(statement) for statement in equation(identifier).statements]
+        for key, group in groupby(rows, key=lambda row: row.key):
+            several = len(formulas) > 1 and f"Formula {formulas.index(key) + 1}:\n\n"
+            parts.append((several or "") + "\n".join(map(_without, group)))
     return "\n\n".join(parts)
 
 

@@ -70,8 +70,11 @@ class Estimate:
 
     @cached_property
     def scatter(self) -> float:
-        """Return the standard deviation of a residual: 1 where it was given, otherwise estimated;
-        infinite without a degree of freedom."""
+        """Return the standard deviation of a residual.
+
+        It is 1 where the readings have standard errors, otherwise estimated, and infinite without
+        a degree of freedom.
+        """
         if self.model.residuals.known:
             return 1.0
         if self.degrees_of_freedom == 0:

@@ -46,10 +46,12 @@ def sobol_indices(
 
     Parameters
     ----------
-    scene, vary, cycles, seed, rtol, executor
-        As for `study`; every key has a distribution.
+    scene, cycles, seed, rtol, executor
+        As for `study`.
+    vary
+        As for `study`, with a distribution for every key.
     samples
-        A power of two.
+        Number of points of the design, a power of two.
 
     Returns
     -------
