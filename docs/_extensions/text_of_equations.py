@@ -9,6 +9,7 @@ from mathml_renderer import anchor
 from derive import reasons
 from derive.catalogue import all_equations, equation
 from derive.equations import Equation, Status
+from derive.hypotheses import Hypothesis
 from derive.symbols import QUANTITIES
 from derive.typeset.macros import macro_name
 from derive.typeset.reading import in_latex
@@ -79,13 +80,21 @@ def _entry(found: Equation) -> str:
         _block(found.latex),
     ]
     if found.conditions:
-        needed = dict.fromkeys(c.words or f"${c.latex}$" for c in found.conditions)
+        needed = dict.fromkeys(map(_condition, found.conditions))
         parts.append(f"If {', '.join(needed)}.")
     if found.printed and not found.agrees:
         parts += ["As printed, which is not equivalent:", _block(found.printed_latex)]
     if found.remark:
         parts.append(f"{in_latex(_capitalised(found.remark))}.")
     return "\n\n".join(parts)
+
+
+def _condition(condition: Hypothesis) -> str:
+    """A setting by its name, any other condition as a formula, after its words if it has some."""
+    if condition.is_setting:
+        return condition.words
+    formula = f"${condition.latex}$"
+    return f"{condition.words} ({formula})" if condition.words else formula
 
 
 def _heading(found: Equation) -> str:
