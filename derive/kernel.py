@@ -30,6 +30,7 @@ from typing import ClassVar, dataclass_transform
 from weakref import WeakKeyDictionary
 
 import sympy as sp
+from sympy.core.cache import clear_cache
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
@@ -134,7 +135,7 @@ class Judgement:
     def __post_init__(self, token: object) -> None:
         if token is not _TOKEN:
             raise TypeError("only a rule makes a judgement")
-        _MADE[self] = self._held, _content(self._held[:2])
+        _MADE[self] = self._held, self._written
 
     def __init_subclass__(cls) -> None:
         raise TypeError("only a rule makes a judgement")
@@ -144,14 +145,15 @@ class Judgement:
         return self.hypotheses, self.claim, self.rule, self.parents
 
     @property
+    def _written(self) -> object:
+        return _content((self.hypotheses, self.claim, *vars(self.rule).values()))
+
+    @property
     def is_made(self) -> bool:
         """Return whether a rule made it, and it still holds what it held then."""
-        held, content = _MADE.get(self, ((), ()))
-        return (
-            len(held) == len(self._held)
-            and all(map(operator.is_, held, self._held))
-            and content == _content(held[:2])
-        )
+        held, written = _MADE.get(self, ((), ()))
+        same = len(held) == len(self._held) and all(map(operator.is_, held, self._held))
+        return same and written == self._written
 
     @property
     def relation(self) -> sp.Basic:
@@ -188,7 +190,7 @@ class Judgement:
 
 
 _MADE: WeakKeyDictionary[Judgement, tuple[tuple[object, ...], object]] = WeakKeyDictionary()
-"""What each judgement held when a rule made it, and the content of its hypotheses and claim."""
+"""What each judgement held when a rule made it, and the content of that."""
 
 
 @cache
@@ -232,9 +234,11 @@ def _apply(rule: Rule, premises: tuple[Judgement, ...]) -> tuple[tuple[Hypothesi
         raise RuleError("missing premise: a judgement that a rule made, and nobody changed")
     if len(premises) < len(rule.premise_names):
         raise RuleError(f"missing premise: {kind.__name__} rests on {listed(rule.premise_names)}")
-    _require_language(*vars(rule).values())
     application = rule, tuple((premise.hypotheses, premise.claim) for premise in premises)
     known = _CONCLUSIONS.get(application)
+    if known is None:
+        clear_cache()  # SymPy's, in which objects that it calls equal may have left results
+    _require_language(*vars(rule).values())
     if known is None or _content(known[:2]) != known[2]:
         made = _conclude(rule, premises)
         known = _CONCLUSIONS[application] = *made, _content(made)

@@ -39,7 +39,7 @@ from .claims import (
     landau_o,
 )
 from .laws import GENERAL
-from .memory import cache
+from .memory import cache, is_plain
 from .note.model import FIELDS
 from .parts import bound, bound_in, is_slope_of_law, nonnegative, positive
 from .reals import holds
@@ -151,7 +151,7 @@ def is_changed(expr: sp.Basic) -> bool:
 def _fault(node: sp.Basic) -> str | None:
     kind = type(node)
     parts = 3 if isinstance(node, landau_o) else 1
-    function = isinstance(kind, UndefinedFunction) and _plain(kind) and len(node.args) == parts
+    function = isinstance(kind, UndefinedFunction) and is_plain(kind) and len(node.args) == parts
     if not function and kind not in (sp.Symbol, sp.Dummy, *_HEADS):
         return f"{kind.__name__} is of no kind that a claim may hold"
     if len(node.args) != _PARTS.get(kind, len(node.args)):
@@ -336,15 +336,6 @@ def _taken(node: sp.Basic) -> Iterator[tuple[sp.Basic, sp.Expr]]:
         yield t, node.args[0]
     elif isinstance(node, sp.Integral):
         yield from ((name, end) for name, *ends in node.limits for end in ends)
-
-
-def _plain(function: type) -> bool:
-    """Return whether an unspecified function has no method and no sign of its own."""
-    plain = vars(sp.Function(function.__name__, **function._kwargs))  # type: ignore[attr-defined]
-    own = vars(function)
-    signs = (name for name in own if name.startswith("is_"))
-    unchanged = own.keys() <= plain.keys() and all(own[sign] == plain[sign] for sign in signs)
-    return function.__bases__ == (AppliedUndef,) and unchanged
 
 
 def _fault_of_name(node: sp.Expr, name: str) -> str | None:

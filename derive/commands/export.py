@@ -1,7 +1,7 @@
 """`derive export`: the steps as lemmas for a proof assistant.
 
 examples:
-  derive export -o proof            every step as a lemma, and the cited theorems
+  derive export -o proof            the steps as lemmas, and the cited theorems
   derive export -o proof --check    compile them too; status 1 where Coq differs from the record
 """
 

@@ -24,7 +24,7 @@ from pathlib import Path
 from ..equations import Equation
 from ..files import write_all
 from . import proofs, refutations
-from .statements import key, world
+from .statements import key, obstacle, world
 from .steps import Record, Step, record, steps
 
 LIBRARY = Path(__file__).parent / "library"
@@ -79,10 +79,14 @@ class Export:
     @property
     def counts(self) -> dict[str, int]:
         """Return the numbers of all steps, of closed ones, and of those that cannot be stated."""
-        derived = (step for e in self.equations for step in e.steps if step.parents)
-        unstated = len({str(step.relation) for step in derived if not key(step)})
-        closed = sum(step.closed for step in self.steps)
+        closed, unstated = sum(step.closed for step in self.steps), len(self.unstated)
         return {"steps": len(self.steps) + unstated, "closed": closed, "unstated": unstated}
+
+    @property
+    def unstated(self) -> dict[str, str]:
+        """Return the steps that cannot be stated, by their relations, with the reasons."""
+        derived = (step for e in self.equations for step in e.steps if step.parents)
+        return {str(step.relation): reason for step in derived if (reason := obstacle(step))}
 
     @property
     def unrecorded(self) -> str:
@@ -142,7 +146,8 @@ class Export:
             f"From Wear Require Import {' '.join(files)}.\n"
             f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
         )
-        return files
+        listed = (f"(* {text}:\n   {reason} *)\n" for text, reason in self.unstated.items())
+        return files | {"Unstated": "".join(listed)}
 
     @property
     def refuting(self) -> dict[str, Step]:

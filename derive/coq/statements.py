@@ -121,17 +121,25 @@ def _distinct(premises: Iterable[Fact]) -> tuple[Fact, ...]:
 
 
 @cache
+def obstacle(judgement: Judgement) -> str:
+    """Return why a step cannot be stated, empty if it can."""
+    try:
+        statement(judgement)
+    except printer.UntranslatableError as reason:
+        return str(reason)
+    return ""
+
+
+@cache
 def key(judgement: Judgement) -> str:
     """Return the hash of a step: of its statement, its rule, and the steps that it cites.
 
     It is empty if the step cannot be stated.
     """
-    try:
-        text = statement(judgement).text
-    except printer.UntranslatableError:
+    if obstacle(judgement):
         return ""
     cited = filter(None, map(key, judgement.parents))
-    text = "\n".join((type(judgement.rule).__name__, text, *cited))
+    text = "\n".join((type(judgement.rule).__name__, statement(judgement).text, *cited))
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 

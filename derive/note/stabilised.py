@@ -92,7 +92,7 @@ limit_argument = Passes(sp.Eq(forever(argument), 4 - 2 / f_c))(
 
 constant_bracket = Insert(sp.Eq(bracket, 2 * (f_c * (h_0 - U_a) - sigma_c0)))(
     name="bracket of (16)",
-    remark="a constant for each load, zero only for one load: (16) as printed is false",
+    remark="independent of the wear; zero only where U_a = h_0 - sigma_c0/f_c: (16) is false",
 )
 """The bracket in (16), second line, does not depend on the wear."""
 
@@ -103,7 +103,7 @@ dropped_denominators = substitute(
     Insert(_difference)(_repeats, steady.roughening, steady.worn, one_period_later(steady.worn)),
     _repeats,
     name="from (15) to (16)",
-    remark="the product of two roughnesses tends to infinity and must not be dropped",
+    remark="the product of two roughnesses is no constant, and must not be dropped",
 )
 """The difference in (15), with the denominators that (16) drops."""
 

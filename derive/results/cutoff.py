@@ -82,7 +82,7 @@ _at_lowest = define(sp.Eq(room.subs({u_c: u_perm, U_a: U_min}), 0), rougher)
 permanent_contact = Insert(sp.Eq(u_perm, (h_0 - 3 * sigma_c0 - U_min) / (3 * f_c - 1)))(
     Solve(u_perm)(_at_lowest, rougher), rougher, name="permanent contact"
 )
-"""The wear beyond which every load keeps contact."""
+"""The wear beyond which contact lasts under all loads from U_min on."""
 
 always_contact = Insert(*stated("always-contact"))(
     permanent_contact, name="margin and permanent contact"

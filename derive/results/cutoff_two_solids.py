@@ -3,8 +3,8 @@
 Overview
     The margin 3 sigma - h is convex in the wear: its second derivative is
     3 (P q^2 - p_1^2)/sigma^3 with P = sigma_a0^2 + sigma_c0^2, and p_1^2 <= P q^2 by the
-    Cauchy-Schwarz inequality.  Contact is lost at the first zero of a convex margin that starts
-    positive, if it has one, and wear cannot pass that depth.  At the zero 9 sigma^2 = h^2, a
+    Cauchy-Schwarz inequality.  A convex margin that starts positive loses contact at its first
+    zero if it is negative beyond, and wear cannot pass that depth.  At the zero 9 sigma^2 = h^2, a
     quadratic equation.
 Key results
     margin_curvature          the curvature of the margin, in two forms

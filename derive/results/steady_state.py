@@ -92,7 +92,7 @@ class SteadyState:
 
     @cached_property
     def deviation(self) -> Judgement:
-        """h/sigma differs from 1/f_c by b/sigma, exactly."""
+        """h/sigma of a smooth pin differs from 1/f_c by b/sigma, exactly."""
         claim = sp.Eq(self.closure / roughness, 1 / f_c - self.excess / roughness)
         return Insert(claim)(self.roughening, self.worn, name="exact deviation")
 
@@ -153,9 +153,9 @@ class SteadyState:
 
     @cached_property
     def ratio(self) -> Judgement:
-        """h/sigma tends to 1/f_c for every law."""
+        """h/sigma of a smooth pin tends to 1/f_c, for every law."""
         claim = sp.Eq(forever(self.closure / roughness), 1 / f_c)
-        return Passes(claim)(self.deviation, self.vanishing, name="limit of h/sigma")
+        return Passes(claim)(self.deviation, self.vanishing, name="limit of the closure ratio")
 
     @cached_property
     def rate(self) -> Judgement:

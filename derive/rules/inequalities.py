@@ -118,7 +118,8 @@ class Threshold(Theorem):
 
     claim: sp.Equivalent
     variable: sp.Expr
-    words = "The left side increases with {variable} and equals the level at the bound, by {all}."
+    alone = "What is compared with a level increases with {variable}, and equals it at the bound."
+    words = f"{alone[:-1]}, by {{all}}."
 
     def prove(self, *premises: Judgement) -> Conclusion:
         claim = claim_of(self.claim)

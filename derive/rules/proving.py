@@ -79,9 +79,14 @@ def _untied(premises: Iterable[Judgement]) -> frozenset[sp.Basic]:
     return frozenset(relation for relation in _supposed(premises) if not _tied(relation))
 
 
-@cache
 def lasts(judgement: Judgement) -> bool:
-    """Return whether a claim holds at every time, not only where rates have a value.
+    """Return whether a claim holds at every time, not only where rates have a value."""
+    return judgement.is_made and _lasts(judgement)
+
+
+@cache
+def _lasts(judgement: Judgement) -> bool:
+    """Return whether the claim of a judgement that was not changed holds at every time.
 
     So does what follows from such claims alone, if no hypothesis ties rates to others; and, since
     other times are limits of these, an equality or bound of continuous expressions that have values

@@ -169,7 +169,7 @@ class FirstRoot(Theorem):
 
     zero: FirstZero
     factor: sp.Expr
-    words = "The first root of a quadratic equation, from {all}."
+    words = "The first root of an equation of second degree at most, from {all}."
     source = "the quadratic formula, in the form without cancellation"
 
     def prove(self, *premises: Judgement) -> Conclusion:

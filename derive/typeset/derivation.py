@@ -19,7 +19,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ..claims import Predicate
-from ..hypotheses import Kind
+from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..rules.assumption import Assume
 from . import formula
@@ -39,6 +39,7 @@ _FIXED = re.compile(r"(\$[^$]*\$|\[[^\]]*\])")
 """LaTeX and references in a sentence, which are not read again."""
 _COLLECTIONS = ("problem-i", "problem-ii")
 """Systems of relations that are derived elsewhere: no step refers to a line of theirs."""
+_Key = tuple[sp.Basic, frozenset[Hypothesis]]
 _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 
 
@@ -57,24 +58,27 @@ class StepText(NamedTuple):
 
 
 class Derivations:
-    """The derivations of some equations; a step that was shown before is referred to."""
+    """The derivations of some equations; a step that was shown before is referred to.
+
+    Two steps are one if they conclude the same relation under the same hypotheses.
+    """
 
     def __init__(self, equations: Iterable[Equation]) -> None:
         self._equations = {equation.id: equation for equation in equations}
-        self._named: dict[sp.Basic, str] = {}
+        self._named: dict[_Key, str] = {}
         for equation in self._equations.values():
             if equation.id not in _COLLECTIONS:
-                for relation in _results(equation):
-                    self._named.setdefault(relation, equation.id)
-        self._places: dict[sp.Basic, tuple[str, int]] = {}
+                for key in _results(equation):
+                    self._named.setdefault(key, equation.id)
+        self._places: dict[_Key, tuple[str, int]] = {}
 
     def steps(self, identifier: str) -> tuple[StepText, ...]:
         """Return the steps to an equation that have not been shown yet."""
         new = (
             statement
             for statement in self._equations[identifier].steps
-            if statement.relation not in self._places
-            and self._named.get(statement.relation, identifier) == identifier
+            if _key(statement) not in self._places
+            and self._named.get(_key(statement), identifier) == identifier
             and not is_hypothesis(statement)
         )
         return self._show(identifier, new)
@@ -95,10 +99,10 @@ class Derivations:
         """Return the steps of statements, and keep the place of each for later references."""
         steps: list[StepText] = []
         for statement in statements:
-            step = self._step(statement, identifier)
-            if step not in steps:
-                steps.append(step)
-            self._places.setdefault(statement.relation, (identifier, steps.index(step) + 1))
+            key = _key(statement)
+            if key not in self._places:
+                steps.append(self._step(statement, identifier))
+                self._places[key] = identifier, len(steps)
         return tuple(steps)
 
     def origins(self, identifier: str) -> tuple[str, ...]:
@@ -110,7 +114,7 @@ class Derivations:
         return tuple(origins)
 
     def _nearest(self, statement: Judgement, of: str) -> Iterator[str]:
-        name = self._named.get(statement.relation, of)
+        name = self._named.get(_key(statement), of)
         if name != of:
             yield name
             return
@@ -125,27 +129,32 @@ class Derivations:
 
     def _result(self, statement: Judgement, of: str) -> StepText:
         """Return the result of a step, an equation or a formula, without its sentence."""
-        relation = statement.relation
-        current = of if relation in _results(self._equations[of]) else ""
-        if name := self._named.get(relation, current):
+        key = _key(statement)
+        current = of if key in _results(self._equations[of]) else ""
+        if name := self._named.get(key, current):
             return StepText("", "", "", name, len(_results(self._equations[name])) > 1)
-        return StepText("", "", latex(presentable(relation)))
+        return StepText("", "", latex(presentable(statement.relation)))
 
     def _name(self, parent: Judgement, of: str) -> str:
-        """Return the reference of a step to another relation."""
-        numbered = self._named.get(parent.relation)
+        """Return the reference of a step to another one."""
+        numbered = self._named.get(_key(parent))
         if numbered is not None and numbered != of:
             return f"[eq:{numbered}]"
-        equation, place = self._places.get(parent.relation, ("", 0))
+        equation, place = self._places.get(_key(parent), ("", 0))
         if not equation:
             return _assumed(parent)
         return f"step {place}" if equation == of else f"step {place} of the [der:{equation}]"
 
 
-def _results(equation: Equation) -> tuple[sp.Basic, ...]:
-    """Return the derived relations of an equation, or all of them if none is derived."""
-    derived = tuple(each.relation for each in equation.statements if not is_hypothesis(each))
-    return derived or tuple(each.relation for each in equation.statements)
+def _key(statement: Judgement) -> _Key:
+    """Return what a step concludes, and its hypotheses in any order."""
+    return statement.relation, frozenset(statement.hypotheses)
+
+
+def _results(equation: Equation) -> tuple[_Key, ...]:
+    """Return the derived results of an equation, or all of them if none is derived."""
+    derived = tuple(_key(each) for each in equation.statements if not is_hypothesis(each))
+    return derived or tuple(map(_key, equation.statements))
 
 
 def _assumed(hypothesis: Judgement) -> str:

@@ -198,4 +198,17 @@ def test_a_sentence_has_no_raw_formula():
 def test_no_step_cites_a_system_that_collects_relations():
     steps = Derivations(catalogue.all_equations()).steps("bearing-rate")
     assert not any("[eq:problem-" in step.sentence for step in steps)
-    assert "Integrate [eq:7f] over time, from [eq:6]." in [step.sentence for step in steps]
+
+
+def test_no_step_cites_a_result_under_other_conditions() -> None:
+    """(18) and the general law are of a rigid support; the bound of a periodic load is dropped."""
+    derivations = Derivations(catalogue.all_equations())
+    compliant = [derivations.steps(i) for i in ("compliant-pressure", "log-drift-any-law")]
+    sentences = [step.sentence for steps in compliant for step in steps]
+    assert not any(
+        "[eq:general-law]" in sentence or "[eq:18]" in sentence for sentence in sentences
+    )
+    assert "general-law" not in derivations.origins("log-drift-any-law")
+    bounded = [s.sentence for s in Derivations(catalogue.all_equations()).steps("one-third")]
+    without = next(i for i, sentence in enumerate(bounded, 1) if "needs no bound" in sentence)
+    assert bounded[-1].endswith(f"step {without}.")

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 import sympy as sp
+from sympy.core.cache import clear_cache
 from sympy.core.parameters import global_parameters
 
 from derive.check import step_checks
@@ -22,12 +23,26 @@ from derive.rules.algebra import Insert, substitute
 from derive.rules.assumption import Assume, assume, defined
 from derive.rules.calculus import rigid
 from derive.rules.data import DataDerivative
+from derive.rules.growth import Diverges
 from derive.rules.inequalities import Arithmetic, Monotone
 from derive.rules.limits import Passes
+from derive.rules.proving import lasts
 from derive.symbols import rate, symbols, t
 from derive.time_limit import TimeLimitError, time_limit
 from derive.verification import verification_of
-from tests.derive.judgements import ROUGHENS, START, eq, equal, ge, gt, ne, sloped, supposed, tends
+from tests.derive.judgements import (
+    ROUGHENS,
+    START,
+    eq,
+    equal,
+    ge,
+    gt,
+    lt,
+    ne,
+    sloped,
+    supposed,
+    tends,
+)
 from tests.derive.test_language import Positive
 
 h, f_c, h_0, q, L, C, G, U_a, u_c = symbols("h f_c h_0 q L C G U_a u_c")
@@ -418,3 +433,47 @@ def test_the_sign_of_a_name_of_ones_own_is_a_condition_of_each_step(capsys) -> N
     ]
     assert main(["steps", "pressure-iteration"]) == 0
     assert "if x > 0" in capsys.readouterr().out
+
+
+def _other(**own: object) -> sp.Function:
+    """Return a function that SymPy calls equal to u_c, with a method or sign of its own."""
+    clear_cache()
+    other = sp.Function("u_c", real=True)
+    for name, value in own.items():
+        setattr(other, name, value)
+    return other
+
+
+def test_what_sympy_calls_equal_leaves_no_result() -> None:
+    clear_cache()
+    one = _other(_eval_expand_basic=lambda *_, **__: sp.Integer(1))
+    sp.expand(one(t) - 1, log=False, power_base=False)  # 0, kept as that of u_c(t) - 1
+    with pytest.raises(RuleError, match="no identity"):
+        Insert(equal(u_c, sp.Integer(1)))()
+    holds(sp.Gt(_other(is_positive=True)(t), 0, evaluate=False), frozenset())
+    with pytest.raises(RuleError, match="missing premise"):
+        Arithmetic(sp.Gt(u_c, 0, evaluate=False))()
+    sp.tanh(_other(is_zero=True)(t))
+    steep = substitute(eq(U_a, sp.tanh(h)), eq(h, u_c))
+    assert steep.relation == equal(U_a, sp.tanh(u_c))
+
+
+def test_a_change_that_is_undone_leaves_no_trace() -> None:
+    changed = substitute(eq(U_a, q * rate("u_c")), eq(q * rate("u_c"), h))
+    sides = vars(changed.claim)
+    kept = dict(sides)
+    sides["lhs"] = sides["rhs"] = sp.S.Zero
+    assert not lasts(changed)
+    sides.update(kept)
+    assert changed.is_made
+    assert not lasts(changed)
+
+
+def test_a_changed_field_of_a_rule_is_found() -> None:
+    """The hashes of -1 and -2 are equal."""
+    growth = ge(u_c, C * t)
+    found = Diverges((L - 1) * u_c)(growth, gt(L, 1), lt(L, 2))
+    assert replay_fault(found) is None
+    vars(found.rule)["expr"] = (L - 2) * u_c
+    assert not found.is_made
+    assert replay_fault(found) == "no rule made it"
