@@ -62,11 +62,12 @@ def limit(windows: Sequence[Window]) -> arb:
     """Return the limit by Aitken's extrapolation, as a ball with the last correction as radius."""
     middles = [sum(window, arb(0)) / len(window) for window in windows[-3:]]
     spreads = [max(abs(v - m).mid() for v in w) for w, m in zip(windows[-3:], middles, strict=True)]
-    *earlier, size = (max(abs(v).mid() for v in window) for window in windows[-3:])
+    *earlier, size = sizes = [max(abs(v).mid() for v in window) for window in windows]
     lasting = size >= arb("0.9") * max(earlier)  # values that decrease may tend to 0
+    steady = 2 * min(sizes) >= max(sizes)  # else the sharp peaks of the values are not seen
     turns = {a < b for a, b in pairwise(windows[-1])} == {True, False}
     varies = turns and spreads[-1] > _GROSS * size and spreads[-1] > arb("0.9") * spreads[-2]
-    if lasting and varies:
+    if lasting and varies and steady:
         raise UndefinedError("no limit: the values go on to vary")
     step, before = (abs(b - a).mid() for a, b in ((middles[1], middles[2]), middles[:2]))
     if lasting and step > arb("0.1") * size and step > arb("0.9") * before:

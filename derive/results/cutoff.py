@@ -3,7 +3,8 @@
 Overview
     With the cutoff, contact is a condition on wear and load: the margin 3 sigma - h must not be
     negative.  For one worn solid it is linear in the wear.  For f_c < 1/3 it decreases: wear
-    stops at a depth at which even the peak of the load does not make contact.  For
+    stops at a depth at which even the peak of the load does not make contact, unless the
+    roughness vanishes before.  For
     f_c = 1/3 it does not depend on the wear; for f_c > 1/3 contact becomes permanent.
 Key results
     contact_condition   contact if and only if (1 - 3 f_c) u_c <= 3 sigma_c0 - h_0 + U_a

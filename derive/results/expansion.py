@@ -4,8 +4,9 @@ Overview
     One worn solid with f_c > 0 under U_a = U sin(2 pi t/T).  The roughness sigma = sigma_c0 +
     f_c u_c grows without bound, and in powers of 1/sigma the rate is steady wear plus a series
     with periodic coefficients.  Averaging order by order separates the growth m of the
-    roughness from its oscillation w_n within a cycle.  The first drift c_1 makes the wear leave
-    every straight line like A ln t: (19) is no asymptote of u_c, while (21) is its slope.
+    roughness from its oscillation w_n within a cycle.  The first drift c_1, unless b_0 = 0, makes
+    the wear leave every straight line like A ln t: (19) is no asymptote of u_c, while (21) is its
+    slope.
 Key results
     drift(n)         c_1 to c_4
     oscillation(n)   w_1, w_2

@@ -4,8 +4,8 @@ Overview
     Wear opens the gap and roughens the bearing in proportion, so closure and roughness stay on
     a straight line: h + U_a - U_c - sigma/f_c does not change.  With the note's contact law the
     closure is a logarithm of the pressure, and the line becomes a relation between pressure,
-    roughness and load that holds at every instant of every history, periodic or not, on a
-    rigid or a compliant support.
+    roughness and load that holds at every instant, whatever the history of the load, on a
+    rigid or a compliant support, if contact is not lost and f_c is not 0.
 Key results
     closure_line               any contact law
     log_odds                   ln(p/(p_max - p)) = 8 - 4 h/sigma, for (4)

@@ -91,9 +91,21 @@ class Derivations:
     def start(self, identifier: str) -> tuple[StepText, ...]:
         """Return the hypotheses on which an equation rests, as steps without a sentence."""
         equation = self._equations[identifier]
-        given = (self._result(each, identifier) for each in equation.steps if is_hypothesis(each))
-        signs = (StepText("", "", latex(sign.relation)) for sign in equation.signs)
-        return tuple(dict.fromkeys((*given, *signs)))
+        return tuple(dict.fromkeys(map(self._hypothesis, (*equation.hypotheses, *equation.signs))))
+
+    def dropped(self, identifier: str) -> tuple[StepText, ...]:
+        """Return the hypotheses that steps use and that a later step drops, as ``start`` does."""
+        equation = self._equations[identifier]
+        used = (h for step in equation.steps for h in step.hypotheses)
+        return tuple(
+            dict.fromkeys(self._hypothesis(h) for h in used if h not in equation.hypotheses)
+        )
+
+    def _hypothesis(self, hypothesis: Hypothesis) -> StepText:
+        key = hypothesis.relation, frozenset((hypothesis,))
+        if name := self._named.get(key, ""):
+            return StepText("", "", "", name, len(_results(self._equations[name])) > 1)
+        return StepText("", "", latex(presentable(hypothesis.relation)))
 
     def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[StepText, ...]:
         """Return the steps of statements, and keep the place of each for later references."""
@@ -182,13 +194,15 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     *_, target = equations
     by_id = {equation.id: equation for equation in equations}
     derivations = Derivations(equations)
-    start, steps = derivations.start(target.id), derivations.chain(target.id)
-    shown = dict.fromkeys(step.equation for step in (*start, *steps) if step.equation)
+    start, dropped = derivations.start(target.id), derivations.dropped(target.id)
+    steps = derivations.chain(target.id)
+    shown = dict.fromkeys(step.equation for step in (*start, *dropped, *steps) if step.equation)
     return rendered(
         "derivation",
         target=target,
         macros=macros([by_id[name] for name in shown], width).rstrip(),
         start=start,
+        dropped=dropped,
         steps=steps,
         equations=by_id,
         width=width,

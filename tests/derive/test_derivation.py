@@ -212,3 +212,12 @@ def test_no_step_cites_a_result_under_other_conditions() -> None:
     bounded = [s.sentence for s in Derivations(catalogue.all_equations()).steps("one-third")]
     without = next(i for i, sentence in enumerate(bounded, 1) if "needs no bound" in sentence)
     assert bounded[-1].endswith(f"step {without}.")
+
+
+def test_a_derivation_starts_from_what_its_equation_rests_on() -> None:
+    """The springs of (2b) and a rigid support would contradict each other."""
+    derivations = Derivations(catalogue.equations_up_to("22"))
+    start, dropped = derivations.start("22"), derivations.dropped("22")
+    assert "2b" not in {step.equation for step in start}
+    assert "2b" in {step.equation for step in dropped}
+    assert any(step.latex == "U_c = 0" for step in start)

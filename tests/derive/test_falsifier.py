@@ -257,3 +257,14 @@ def test_the_error_of_an_integral_to_a_singularity_bounds_it(function, value):
 def test_a_divergent_integral_has_no_value(function):
     with pytest.raises(UndecidedError, match="diverge"):
         integral(function, ZERO, fmpq(1))
+
+
+def test_a_sharp_peak_that_decays_goes_on_to_vary_for_no_window() -> None:
+    """A pressure that falls like 1/t and swings by a factor of 55 within a period of the load."""
+    values = (
+        (0.604, 0.467, 0.333, 0.037, 0.026), (0.009, 0.0086, 0.0046, 0.031, 0.019),
+        (0.011, 0.0076, 0.0013, 0.003, 0.0005), (0.016, 0.036, 0.005, 0.011, 0.0003),
+    )  # fmt: skip
+    windows = [[arb(value) for value in window] for window in values]
+    with pytest.raises(UndecidedError):
+        trend.limit(windows)
