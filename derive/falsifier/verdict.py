@@ -282,7 +282,7 @@ def _described(
     are always shown.
     """
     known = {h.lhs for h in given if isinstance(h, sp.Eq) and (h.rhs.is_number or h.rhs.is_Symbol)}
-    starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)}
+    starts = {f.func(t) for f in known if f.args == (sp.S.Zero,)} & model.states.keys()
     drawn = []
     rests_on = dependencies((relations,), model.values) - known - starts
     for quantity in sorted(rests_on, key=lambda q: (bool(q.args), str(q))):

@@ -169,7 +169,8 @@ class FirstRoot(Theorem):
 
     zero: FirstZero
     factor: sp.Expr
-    words = "The first root of an equation of second degree at most, from {all}."
+    alone = "The first root of an equation of second degree at most."
+    words = f"{alone[:-1]}, from {{all}}."
     source = "the quadratic formula, in the form without cancellation"
 
     def prove(self, *premises: Judgement) -> Conclusion:
