@@ -32,21 +32,16 @@ from wear.faults import AccuracyError
 from wear.generated import asymptotics as formula
 from wear.generated import reaction
 from wear.load import Load
-from wear.numerics.gauss import FloatArray
 from wear.offset import offset
 from wear.outcome import FADES
 from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene
 from wear.solver import solve
-
-TOLERANCE = Decimal("1e-6")
-"""The note's criterion: relative distance of the wear rate from its limit."""
+from wear.stabilisation import TOLERANCE, settled
 
 _DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
 _DIGITS.traps[decimal.Overflow] = False  # infinity: the pressure of a gap beyond all bounds is zero
 _PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
-_AGREES = 0.02  # relative: up to which the leading term tells when the wear has settled
-_GRID, _REFINEMENTS = 40, 3  # points and passes of the search for that: to one part in a thousand
 
 VANISHES = "the roughness vanishes in finite time; the model ends there"
 CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
@@ -253,9 +248,9 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     if per_cycle == 0.0:
         said = f"wear goes on, if under a pressure of {pressure:.3g} MPa: shown as 0"
         notices = (*notices, said)
-    settled = _settled(case.scene, float(pressure), _cycles(abs(mean), per_cycle))
+    on_average = settled(case.scene, float(pressure), _cycles(abs(mean), per_cycle))
     everywhere = _cycles(max(map(abs, extremes)), per_cycle)
-    until = [settled, everywhere and max(everywhere, settled or 0.0)]
+    until = [on_average, everywhere and max(everywhere, on_average or 0.0)]
     if any(each and not _lasts(case.scene, each * per_cycle) for each in until):
         until = [None, None]
         said = "contact is not yet permanent when the rate would be within 1e-6 of its limit"
@@ -278,36 +273,7 @@ def _cycles(drift: Decimal, per_cycle: float) -> float | None:
     criterion."""
     if per_cycle == 0.0:
         return None
-    return max(float(drift / (Decimal(per_cycle) * TOLERANCE)), 1.0)
-
-
-def _settled(scene: Scene, pressure: float, leading: float | None) -> float | None:
-    """Return the cycles after which the mean pressure of a cycle stays within the criterion.
-
-    ``leading`` follows from the leading term of the approach, ``A/(N u_cum)``.  Where a small A
-    lets higher orders rule at that number of cycles, the solution is searched instead.
-    """
-    if leading is None or leading > MOST_CYCLES:
-        return leading
-
-    def excess(cycles: FloatArray) -> FloatArray:
-        try:
-            mean = solve(scene, np.rint(cycles), rtol=1e-12).pressures.mean
-        except AccuracyError:  # of an extreme scene
-            mean = np.full(cycles.shape, np.nan)
-        return np.abs(mean / pressure - 1.0) / float(TOLERANCE)
-
-    if abs(float(excess(np.array([leading]))[0]) - 1.0) < _AGREES:
-        return leading
-    grid = np.geomspace(1.0, MOST_CYCLES, _GRID)
-    for _ in range(_REFINEMENTS):
-        grid = np.unique(np.rint(grid))
-        values = excess(grid)
-        outside = np.flatnonzero(values > 1.0)
-        if not len(outside) or outside[-1] == len(grid) - 1:
-            return leading if len(outside) or np.isnan(values).any() else float(grid[0])
-        grid = np.geomspace(grid[outside[-1]], grid[outside[-1] + 1], _GRID)
-    return float(grid[-1])
+    return max(float(drift / (Decimal(per_cycle) * Decimal(TOLERANCE))), 1.0)
 
 
 def _lasts(scene: Scene, wear: float) -> bool:
@@ -427,23 +393,22 @@ def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:
 def _at_one_third(case: _Case) -> Asymptote:
     """Return the asymptote at f_c = 1/3: contact in a fixed part of every cycle.
 
-    On springs the gap closes no further than to the edge of contact where their force, stiffness
-    times margin, is below the limit of the pressure.
+    On springs the pressure is proportional to the margin up to the one at which the gap is held.
     """
-    begins = -float(bind(case.scene).margin(0.0, 0.0))  # the load at which contact begins
-    pressure, support = float(_steady_pressure(case)), case.scene.support
-    part = cycle_mean(case.load, lambda U_a: np.where(U_a >= begins, 1.0, 0.0), [begins])
-    mean = part * pressure
-    if support is not None:
-        k = support.stiffness_MPa_per_mm
-        pressure = min(pressure, k * (case.load.maximum - begins))
-        levels = [begins, begins + pressure / k]
-        mean = cycle_mean(case.load, lambda U_a: np.clip(k * (U_a - begins), 0, pressure), levels)
+    model, load = bind(case.scene), case.load
+    begins, held = -float(model.margin(0.0, 0.0)), float(model.held_margin)
+    pressure = float(_steady_pressure(case))
+    share = part = cycle_mean(load, lambda U_a: np.where(U_a >= begins, 1.0, 0.0), [begins])
+    peak = 1.0
+    if held > 0.0:
+        ends = [begins, begins + held]
+        share = cycle_mean(load, lambda U_a: np.clip(model.margin(0.0, U_a) / held, 0.0, 1.0), ends)
+        peak = min(1.0, float(model.margin(0.0, load.maximum)) / held)
     return _result(
         case,
         "steady",
-        wear_per_cycle_mm=case.wear_at(mean),
-        pressure_MPa=pressure,
+        wear_per_cycle_mm=case.wear_at(share * pressure),
+        pressure_MPa=peak * pressure,
         notices=(
             f"contact lasts {part:.4g} of every cycle",
             "the contact pressure is its limit at the peak of the load",
