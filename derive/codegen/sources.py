@@ -18,6 +18,7 @@ import sympy as sp
 from ..program import Program
 from ..program.function import Function
 from ..program.gradient import by_constant
+from ..templates import templates
 from .emit import NUMPY, TARGETS, C, Target, emit
 from .increment import contact, increment
 from .wording import meaning_of, remark_on, sentence, title_of
@@ -61,16 +62,7 @@ def rendered(template: str, **context: Any) -> str:
 
 @cache
 def _environment() -> Environment:
-    """Return the templates; Jinja2 is imported when the first source is written."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader(__package__),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        undefined=StrictUndefined,
-    )
+    environment = templates(__package__)
     environment.filters |= {"remarked": remarked, "wrapped": wrapped, "bracketed": bracketed}
     environment.globals |= {"meaning_of": meaning_of, "sentence": sentence}
     return environment

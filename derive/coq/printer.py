@@ -167,14 +167,14 @@ def proposition(relation: sp.Basic) -> str:
 
 
 def _equation(left: sp.Expr, right: sp.Expr) -> str:
-    if isinstance(left, sp.Limit) and isinstance(right, sp.Limit):
+    left, right = sorted((left, right), key=lambda side: not isinstance(side, sp.Limit))
+    if isinstance(right, sp.Limit):
         return f"exists l, {_limit(left, 'l')} /\\ {_limit(right, 'l')}"
-    for one, other in ((left, right), (right, left)):
-        if isinstance(one, sp.Limit):
-            return _limit(one, _inner(other) if other != sp.oo else None)
-    product = left.as_independent(sp.Limit) if left.has(sp.Limit) else None
-    if product is not None and isinstance(product[1], sp.Limit) and right == 0:
-        return f"exists l, {_limit(product[1], 'l')} /\\ {_inner(product[0])} * l = 0"
+    if isinstance(left, sp.Limit):
+        return _limit(left, _inner(right) if right != sp.oo else None)
+    factor, limit = left.as_independent(sp.Limit, as_Add=False)
+    if isinstance(limit, sp.Limit) and right == 0:
+        return f"exists l, {_limit(limit, 'l')} /\\ {_inner(factor)} * l = 0"
     return f"{term(left)} = {term(right)}"
 
 

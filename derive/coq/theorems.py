@@ -11,19 +11,17 @@ Key results
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import sympy as sp
+from jinja2 import Template
 
 from ..rules.growth import expanded
 from ..rules.limits import in_terms_of
 from ..symbols import DATA, symbol, t
+from ..templates import templates
 from .printer import always, proposition, quantity, term
 from .statements import Fact
 from .steps import Step, stated
-
-if TYPE_CHECKING:
-    from jinja2 import Template
 
 LOAD, WEAR, SUPPORT = map(symbol, ("U_a", "u_c", "U_c"))
 RATIO = sp.Symbol("ratio", real=True)
@@ -76,16 +74,8 @@ def proof(step: Step) -> str:
 
 @cache
 def template(name: str) -> Template:
-    """Return a template of proofs; Jinja2 is imported when the first one is written."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader(__package__, "library"),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        undefined=StrictUndefined,
-    )
+    """Return a template of proofs."""
+    environment = templates(__package__, "library")
     words = (always, at_infinity, in_terms_of, proposition, quantity, rate_of)
     known = {each.__name__: each for each in (*words, slope_of_wear, stated, term, vanishing)}
     environment.filters |= known

@@ -48,6 +48,9 @@ _TRUSTED = arb(10) ** -12
 _SMALL = arb(10) ** -5
 """Size of a sum, relative to its terms, below which it has no clear trend."""
 
+_UNSEEN = arb(10) ** -9
+"""Change of a state over all the time known, relative to it, below which no trend is read."""
+
 _UNMOVED = arb(10) ** -6
 """Relative width of a constant up to which a datum is known to have no influence on it."""
 
@@ -328,10 +331,19 @@ class Model:
         periods = min(self.motion.integrate_to(period * far * 5) / period, 5 * far) / 4
         if periods > far / 2:  # the logarithms of the times form a geometric sequence
             powers = [0.5 ** (k / 2) for k in (4, 3, 2, 1, 0)]
-            return [self._window(int(periods**power), power) for power in powers]
-        if periods < 30 or far == _FARTHEST:
+            ladder = [self._window(int(periods**power), power) for power in powers]
+        elif periods < 30 or far == _FARTHEST:
             raise UndecidedError("the fields are not known for long enough")
-        return [self._window(int(periods / 2**k)) for k in (4, 3, 2, 1, 0)]
+        else:
+            ladder = [self._window(int(periods / 2**k)) for k in (4, 3, 2, 1, 0)]
+        if any(self._creeps(state, ladder[0][-1], ladder[-1][-1]) for state in self.states):
+            raise UndecidedError("the fields are not known for long enough")
+        return ladder
+
+    def _creeps(self, state: sp.Expr, early: fmpq, late: fmpq) -> bool:
+        """Return whether a state still moves, but too slowly to be seen in all the time known."""
+        before, gain = (abs(arb(at * self.field(state, at, 1))) for at in (early, late))
+        return bool(gain > before and gain < _UNSEEN * abs(self.field(state, late)))
 
     def _window(self, periods: int, power: float = 1.0) -> list[fmpq]:
         factors = ((int(periods * f**power), phase) for f, phase in _FACTORS)

@@ -21,6 +21,7 @@ from sympy.core.function import AppliedUndef
 
 from ..equations import Equation
 from ..symbols import QUANTITIES, Quantity
+from ..templates import LATEX, templates
 from .breaking import broken
 from .reading import in_latex
 
@@ -64,15 +65,8 @@ def room(length: str, size: float = 10.0) -> float:
 
 def rendered(template: str, **context: Any) -> str:
     """Return the text of a template of LaTeX."""
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader(__package__), undefined=StrictUndefined, keep_trailing_newline=True,
-        trim_blocks=True, variable_start_string="<<", variable_end_string=">>",
-        block_start_string="<%", block_end_string="%>", comment_start_string="<#",
-        comment_end_string="#>",
-    )  # fmt: skip
-    return environment.get_template(f"{template}.jinja").render(broken=broken, **context)
+    known = templates(__package__, **LATEX)
+    return known.get_template(f"{template}.jinja").render(broken=broken, **context)
 
 
 def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:

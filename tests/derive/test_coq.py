@@ -56,6 +56,14 @@ def test_what_the_library_lacks_is_named():
         printer.term(sp.besseli(0, p_max))
 
 
+def test_a_sum_with_a_limit_is_no_product():
+    end = sp.Limit(h / sigma, t, sp.oo)
+    product, whole = (sp.Eq(side, 0, evaluate=False) for side in (f_c * end, f_c + end))
+    assert printer.proposition(product).endswith("f_c * l = 0")
+    with pytest.raises(printer.UntranslatableError, match="Limit"):
+        printer.proposition(whole)
+
+
 def test_the_slope_of_a_name_without_a_function_has_no_statement():
     with pytest.raises(printer.UntranslatableError, match="no function"):
         statement(eq(symbols("q")[0], sp.Derivative(p_max, symbols("k")[0])))

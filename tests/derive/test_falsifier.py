@@ -125,6 +125,14 @@ def test_a_change_that_is_slow_is_no_change_for_ever():
     assert falsify((slow, sp.Eq(initial("u_c"), 0)), sp.Eq(forever(change), 0)).passed
 
 
+def test_a_field_that_creeps_has_not_stopped():
+    """It grows for ever, by less than a digit in all the time for which it is known."""
+    creeping = (sp.Eq(rate("u_c"), sp.exp(-100)), sp.Eq(initial("u_c"), 1))
+    found = falsify(creeping, sp.Eq(sp.Limit(u_c, t, sp.oo), sp.oo))
+    assert found.passed
+    assert found.models > found.decided == 0
+
+
 def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
     close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
     broken = falsify((sp.Eq(h_0, 2),), close)

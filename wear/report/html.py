@@ -19,8 +19,7 @@ from functools import partial
 from html import escape
 from importlib.resources import files
 
-import jinja2
-
+from derive.templates import templates
 from derive.typeset import mathml
 from wear.cite import listed
 from wear.report.document import Document
@@ -99,12 +98,7 @@ def drawing(svg: str, label: str, description: str) -> str:
     return _ROOT.sub(lambda match: f"<svg {attributes}{_SIZE.sub('', match[1])}>", body, count=1)
 
 
-TEMPLATES = jinja2.Environment(
-    loader=jinja2.PackageLoader("wear.report"),
-    undefined=jinja2.StrictUndefined,
-    autoescape=False,
-    trim_blocks=True,
-)
+TEMPLATES = templates("wear.report")
 TEMPLATES.filters |= {
     "e": escape,
     "text": partial(escape, quote=False),

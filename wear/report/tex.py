@@ -14,8 +14,7 @@ import re
 import unicodedata
 from functools import partial
 
-import jinja2
-
+from derive.templates import LATEX, templates
 from derive.typeset.breaking import broken
 from wear.cite import listed
 from wear.report.document import Document
@@ -105,12 +104,7 @@ def _code(text: str) -> str:
     return "".join(escape(c) + (r"\allowbreak{}" if c in "/._-=" else "") for c in text)
 
 
-_TEMPLATES = jinja2.Environment(
-    loader=jinja2.PackageLoader("wear.report"), undefined=jinja2.StrictUndefined,
-    autoescape=False, variable_start_string="<<", variable_end_string=">>", trim_blocks=True,
-    block_start_string="<%", block_end_string="%>", comment_start_string="<#",
-    comment_end_string="#>",
-)  # fmt: skip
+_TEMPLATES = templates("wear.report", **LATEX)
 _TEMPLATES.filters |= {
     "tex": escape,
     "code": _code,
