@@ -7,7 +7,7 @@ Key results
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -18,7 +18,7 @@ LATEX = {
 }  # fmt: skip
 
 
-def templates(package: str, folder: str = "templates", **marks: str) -> Environment:
+def templates(package: str, folder: str = "templates", **marks: Any) -> Environment:
     """Return the templates in a folder of a package; an unknown name in them is an error."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 

@@ -46,8 +46,8 @@ _REFERENCE = re.compile(r"\[eq:([^\]]+)\]")
 class StepText(NamedTuple):
     """A step: a sentence, the author's remark on it, and the resulting formula.
 
-    If the formula has a number, `latex` is empty, `equation` is its id, and `part` whether it is
-    one of several formulas of that number.
+    If the formula has a number, `equation` is its id, and `part` whether it is one of several
+    formulas of that number.
     """
 
     sentence: str
@@ -103,9 +103,12 @@ class Derivations:
 
     def _hypothesis(self, hypothesis: Hypothesis) -> StepText:
         key = hypothesis.relation, frozenset((hypothesis,))
-        if name := self._named.get(key, ""):
-            return StepText("", "", "", name, len(_results(self._equations[name])) > 1)
-        return StepText("", "", latex(presentable(hypothesis.relation)))
+        return self._formula(key, self._named.get(key, ""))
+
+    def _formula(self, key: _Key, name: str) -> StepText:
+        """Return a formula, which may be of an equation, as a step without a sentence."""
+        part = bool(name) and len(_results(self._equations[name])) > 1
+        return StepText("", "", latex(presentable(key[0])), name, part)
 
     def _show(self, identifier: str, statements: Iterable[Judgement]) -> tuple[StepText, ...]:
         """Return the steps of statements, and keep the place of each for later references."""
@@ -143,9 +146,7 @@ class Derivations:
         """Return the result of a step, an equation or a formula, without its sentence."""
         key = _key(statement)
         current = of if key in _results(self._equations[of]) else ""
-        if name := self._named.get(key, current):
-            return StepText("", "", "", name, len(_results(self._equations[name])) > 1)
-        return StepText("", "", latex(presentable(statement.relation)))
+        return self._formula(key, self._named.get(key, current))
 
     def _name(self, parent: Judgement, of: str) -> str:
         """Return the reference of a step to another one."""
@@ -196,7 +197,8 @@ def prose(equations: Sequence[Equation], width: float) -> str:
     derivations = Derivations(equations)
     start, dropped = derivations.start(target.id), derivations.dropped(target.id)
     steps = derivations.chain(target.id)
-    shown = dict.fromkeys(step.equation for step in (*start, *dropped, *steps) if step.equation)
+    whole = (step for step in (*start, *dropped, *steps) if step.equation and not step.part)
+    shown = dict.fromkeys(step.equation for step in whole)
     return rendered(
         "derivation",
         target=target,

@@ -95,13 +95,21 @@ def test_a_derivation_fits_a_column(identifier, tmp_path, need_tool):
     """Prose with equations: starting points, every step, the equation with its number."""
     engine = need_tool("pdflatex")
     text = prose(catalogue.equations_up_to(identifier), room("246pt"))
-    assert rf"\tag{{{identifier}}}" in text
+    assert re.search(rf"\\tag\{{(in )?{identifier}\}}", text)
     assert not re.search(r"\[(?:eq|der):", text)
     steps = [int(number) for number in re.findall(r"Step (\d+)\.", text)]
     assert steps == sorted(set(steps))
     (tmp_path / "equations.tex").touch()
     log = _log(tmp_path, engine, r"\documentclass{article}\setlength{\textwidth}{246pt}", text)
     assert _WIDE.findall(log) == []
+
+
+def test_a_derivation_starts_from_its_hypotheses_alone():
+    """Not from whole systems of which it needs a line: u_a = 0 contradicts a line of (5)."""
+    text = prose(catalogue.equations_up_to("21"), room("246pt"))
+    assert r"\tag{in 5}" in text
+    assert r"\EqWearLaws" not in text
+    assert "u_a(0)" not in text
 
 
 def test_a_factor_after_a_broken_fraction_is_not_in_its_denominator():
