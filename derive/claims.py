@@ -106,8 +106,8 @@ class Term(sp.Expr):
     is_real = True
     letter = ""
     words = (
-        "s = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...), "
-        "which solves ds/dtau = rho F/F(oo) for F in brackets"
+        "s = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...) and each w_n of "
+        "period 1 and mean 0 in tau, which solves ds/dtau = rho F/F(oo) for F in brackets"
     )
 
     @property

@@ -164,7 +164,9 @@ _SETTINGS = MappingProxyType(
         RIGID.relation: "rigid support",
         model.CLOSURE[True]: "wear of the pin opens the gap",
         model.at_every_closure(TANH): "no loss of contact",
-        model.at_every_closure(GENERAL): "any contact law phi without loss of contact",
+        model.at_every_closure(GENERAL): (
+            "any positive, smooth, decreasing contact law phi without loss of contact"
+        ),
         UNCOUPLED[0].relation: "roughness of the pin unaffected by wear of the bearing",
         UNCOUPLED[1].relation: "roughness of the bearing unaffected by wear of the pin",
         PERIODIC.relation: "load of period T",

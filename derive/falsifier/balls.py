@@ -38,7 +38,7 @@ _HALVINGS_OF_ZERO = 60
 
 
 class UndefinedError(ArithmeticError):
-    """The expression has no value there: a division by zero, the logarithm of a negative."""
+    """The expression has no value there; the message says why: "no value: a division by zero"."""
 
 
 class UndecidedError(ArithmeticError):
@@ -74,7 +74,7 @@ def real(function: Callable[..., arb], *parameters: Number) -> Callable[[Number]
         result = function(at, *parameters)
         if result.is_nan():
             if all(function(end, *parameters).is_nan() for end in (at.lower(), at.upper())):
-                raise UndefinedError(f"{function.__name__} outside its domain")
+                raise UndefinedError(f"no value: {function.__name__} outside its domain")
             raise UndecidedError(f"{function.__name__} at the end of its domain")
         whole = result.unique_fmpz() if result.is_exact() else None
         return result if whole is None else fmpq(whole)
@@ -87,7 +87,7 @@ _exponential, _logarithm, _root = map(real, (arb.exp, arb.log, arb.sqrt))
 
 def _divided(a: Number, b: Number) -> Number:
     if b == 0:
-        raise UndefinedError("division by zero")
+        raise UndefinedError("no value: a division by zero")
     if isinstance(b, arb) and b.contains(0):
         raise UndecidedError("a possible division by zero")
     return a / b
@@ -104,7 +104,7 @@ def _power(base: Number, exponent: Number) -> Number:
     if base == 0:
         if arb(exponent) > 0:
             return ZERO
-        raise UndefinedError("a power of zero")
+        raise UndefinedError("no value: a power of zero")
     if exponent == fmpq(1, 2):
         try:
             return base.sqrt() if isinstance(base, fmpq) else _root(base)
@@ -131,7 +131,7 @@ def _floor(x: Number) -> fmpq:
 
 def _lambert(x: Number, branch: Number = ZERO) -> Number:
     if branch != 0 and not arb(x) < 0:
-        raise UndefinedError("the lower branch of Lambert's function at a number not below 0")
+        raise UndefinedError("no value: the lower branch of W at a number not below 0")
     return real(arb.lambertw, int(branch.p))(x)
 
 

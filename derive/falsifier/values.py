@@ -276,7 +276,7 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
 
 def _tends(limit: sp.Limit, value: sp.Expr, moment: Moment) -> bool | None:
     if t in value.free_symbols:
-        raise UndefinedError("a limit in time that still depends on time")
+        raise UndefinedError("no value: a limit in time that still depends on time")
     infinite = {sp.oo: arb.pos_inf(), -sp.oo: arb.neg_inf()}
     end = infinite[value] if value in infinite else ball(compiled(value)(moment))
     tends: bool | None = moment.model.tends(limit, end)
@@ -333,7 +333,7 @@ def _sides(relation: sp.Basic, moment: Moment) -> str:
             with ctx.workprec(BITS):
                 for limit, name in latest.items():
                     at = at.at(name, moment.model.latest(limit))
-                values.append(("towards " * bool(latest), compiled(side.xreplace(latest))(at)))
+                values.append(("last value " * bool(latest), compiled(side.xreplace(latest))(at)))
         except (ArithmeticError, ValueError):
             values.append(("", str(side) if side.is_infinite else "?"))
     for digits in range(6, 18):

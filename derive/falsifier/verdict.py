@@ -215,7 +215,8 @@ def falsify(
         outcome = truth(claimed, model)
         if outcome.holds is False:
             if not _fits(model, tuple(given), *about, model.times):
-                continue  # now that the fields are known for longer
+                models -= 1  # now that the fields are known for longer
+                continue
             named = without.args if isinstance(without, _ORDERS) else ()
             drawn = _described(model, given, sp.Tuple(without, claimed), named)
             return TrialResult(Counterexample(drawn, outcome.where, seed), models, decided + 1)

@@ -3,12 +3,10 @@
 Overview
     With pin wear u_a = kappa u_c the equivalent roughness is a root of a quadratic in u_c,
     sigma^2 = sigma_a0^2 + sigma_c0^2 + 2 p_1 u_c + q^2 u_c^2, and the gap opens by g per wear.
-    If the roughness changes and never vanishes (p_1 > -q S with S the roughness at the start),
-    wear is unbounded and h/sigma tends to g/q: x_inf = 4 - 2 g/q.  (A negative slope would make a
-    roughness negative in the end, which the note excludes.)
+    If wear roughens one of the solids and smooths none, it is unbounded and h/sigma tends to g/q:
+    x_inf = 4 - 2 g/q.  (With a negative slope no motion lasts: a roughness would be negative.)
 Key results
     TwoSolids.definitions  q, g and p_1
-    TwoSolids.squares      the identity by which sigma does not vanish
     TwoSolids.ratio        h/sigma -> g/q
     TwoSolids.rate         the steady wear rate
     TwoSolids.drift        the coefficient of ln t
@@ -25,12 +23,12 @@ from functools import cached_property
 
 import sympy as sp
 
-from ..hypotheses import BOUNDED_LOAD, Hypothesis
+from ..hypotheses import BOUNDED_LOAD, NOT_SMOOTHING, Hypothesis
 from ..kernel import Judgement
 from ..laws import TANH, ContactLaw
 from ..note import condensed
 from ..note.condensed import CondensedProblem
-from ..rules.algebra import Consequence, Insert, Solve, substitute
+from ..rules.algebra import Consequence, Solve, substitute
 from ..rules.assumption import assume, defined
 from ..rules.drift import first_order
 from ..rules.growth import AtInfinity, unbounded
@@ -47,14 +45,8 @@ squared = sigma_a0**2 + sigma_c0**2 + 2 * p_1 * u_c + q**2 * u_c**2
 sigma = sp.sqrt(squared)
 closure_ratio = (h_0 + g * u_c - U_a) / sigma
 
-start = sp.sqrt(sigma_a0**2 + sigma_c0**2)
-"""The equivalent roughness at the start."""
-
-NEVER_SMOOTH = Hypothesis(
-    sp.sqrt((f_a * kappa) ** 2 + f_c**2) * start > -f_a * kappa * sigma_a0 - f_c * sigma_c0
-)
-"""Wear changes the roughness, which never vanishes: as vectors, the slopes of the two roughnesses
-and their values at the start are not opposite."""
+ROUGHENED = (Hypothesis(sp.Ge(f_a, 0)), NOT_SMOOTHING, Hypothesis(sp.Gt(f_a + f_c, 0)))
+"""Wear smooths neither solid, and roughens one of them."""
 
 
 @dataclass(frozen=True)
@@ -68,33 +60,22 @@ class TwoSolids:
     def definitions(self) -> tuple[Judgement, Judgement, Judgement]:
         """q, g and p_1."""
         return (
-            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2), assume(NEVER_SMOOTH)),
+            defined(q, sp.sqrt((f_a * kappa) ** 2 + f_c**2), *map(assume, ROUGHENED)),
             defined(g, 1 + kappa if self.opening else 1 - kappa),
             defined(p_1, f_a * kappa * sigma_a0 + f_c * sigma_c0),
         )
 
-    @cached_property
-    def rough_enough(self) -> Judgement:
-        """The condition on the roughness, in terms of q and p_1."""
-        roughening, _, cross = self.definitions
-        condition = sp.Gt(p_1 + q * start, 0)
-        return Arithmetic(condition)(assume(NEVER_SMOOTH), roughening, cross)
-
-    @cached_property
-    def squares(self) -> Judgement:
-        """sigma^2 is a square plus a term that is positive once the bearing has worn."""
-        claim = sp.Eq(squared, (start - q * u_c) ** 2 + 2 * (p_1 + q * start) * u_c)
-        return Insert(claim)(name="lower bound of the roughness")
-
     @property
     def facts(self) -> tuple[Judgement, ...]:
-        """The premises by which the roughness does not vanish."""
-        return self.squares, self.rough_enough, worn(self.problem)
+        """The premises by which the roughness does not fall."""
+        growth = Arithmetic(sp.Ge(p_1, 0))(self.definitions[2], *map(assume, ROUGHENED))
+        return growth, worn(self.problem)
 
     @cached_property
     def rough(self) -> Judgement:
-        """The roughness does not vanish at any wear."""
-        return Arithmetic(sp.Gt(squared, 0))(*self.facts)
+        """The roughness does not fall below its value at the start."""
+        least = sigma_a0**2 + sigma_c0**2
+        return Arithmetic(sp.Ge(squared, least))(*self.facts, name="lower bound of the roughness")
 
     @cached_property
     def problem(self) -> CondensedProblem:
@@ -145,7 +126,7 @@ class TwoSolids:
 _printed = TwoSolids()
 two_solids = _printed.definitions
 two_solids_opening = TwoSolids(opening=True).definitions
-two_solids_roughness = _printed.rough, _printed.squares
+two_solids_roughness = _printed.rough
 two_solids_closure_ratio = _printed.ratio
 two_solids_rate = _printed.rate
 two_solids_log_drift = _printed.drift

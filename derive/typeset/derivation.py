@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..claims import Predicate
+from ..claims import Predicate, Term
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
+from ..laws import GENERAL
 from ..rules.assumption import Assume
 from . import formula
 from .display import inline, latex
@@ -89,7 +90,8 @@ class Derivations:
         return self._show(identifier, (each for each in chain if not is_hypothesis(each)))
 
     def start(self, identifier: str) -> tuple[StepText, ...]:
-        """Return the hypotheses on which an equation rests, as steps without a sentence."""
+        """Return the hypotheses on which an equation rests, in words where the formula does not
+        say it all."""
         equation = self._equations[identifier]
         return tuple(dict.fromkeys(map(self._hypothesis, (*equation.hypotheses, *equation.signs))))
 
@@ -103,7 +105,9 @@ class Derivations:
 
     def _hypothesis(self, hypothesis: Hypothesis) -> StepText:
         key = hypothesis.relation, frozenset((hypothesis,))
-        return self._formula(key, self._named.get(key, ""))
+        shown = self._formula(key, self._named.get(key, ""))
+        explained = hypothesis.relation.has(Term, GENERAL.phi.func)
+        return shown._replace(sentence=in_latex(f"{hypothesis.words}:")) if explained else shown
 
     def _formula(self, key: _Key, name: str) -> StepText:
         """Return a formula, which may be of an equation, as a step without a sentence."""

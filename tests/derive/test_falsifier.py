@@ -133,6 +133,15 @@ def test_a_field_that_creeps_has_not_stopped():
     assert found.models > found.decided == 0
 
 
+def test_a_model_whose_fields_leave_their_domains_late_is_none():
+    """The roughness is positive at the early times at which hypotheses are tried first."""
+    smoothing = sp.Eq(symbols("sigma_c")[0], 1 - u_c / 1000)
+    given = (sp.Eq(rate("u_c"), 1), sp.Eq(initial("u_c"), 0), smoothing)
+    found = falsify(given, sp.Eq(sp.Limit(u_c, t, sp.oo), 1))
+    assert found.passed
+    assert found.models == 0
+
+
 def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
     close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
     broken = falsify((sp.Eq(h_0, 2),), close)

@@ -112,6 +112,12 @@ def test_a_derivation_starts_from_its_hypotheses_alone():
     assert "u_a(0)" not in text
 
 
+def test_a_derivation_says_what_a_formula_does_not():
+    law, terms = (prose(catalogue.equations_up_to(i), 29.0) for i in ("general-law", "expansion"))
+    assert "any positive, smooth, decreasing contact law" in law
+    assert "of period 1 and mean 0" in terms
+
+
 def test_a_factor_after_a_broken_fraction_is_not_in_its_denominator():
     """[a]/[b] c may be read as [a]/([b] c)."""
     fraction = r"\frac{K_c V T + x}{6 H_c + y + z + w}"
