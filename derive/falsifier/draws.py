@@ -133,7 +133,7 @@ def _draw_quantities(
     """Return a model of relations, in which the quantities ``slopes`` depend on the data
     ``moving``, by which they are differentiated."""
     chance, draft = random.Random(seed), _Draft(moving)
-    parts = [part for relation in relations for part in sp.And.make_args(relation)]
+    parts = [part for r in relations for part in sorted(sp.And.make_args(r), key=str)]
     constants = {f: sp.Symbol(f"{_name(f)}(0)", real=True) for f in map(_constant, parts) if f}
     draft.values.update(constants)
     parts = [p if p.has(sp.Derivative) else p.xreplace(constants) for p in parts]

@@ -1,5 +1,7 @@
 """The falsifier: every false statement is broken by a model, no true neighbour is."""
 
+import os
+
 import pytest
 import sympy as sp
 from flint import arb, fmpq
@@ -11,6 +13,7 @@ from derive.falsifier.balls import ZERO, UndecidedError, UndefinedError, integra
 from derive.falsifier.verdict import counterexample_without, falsify
 from derive.symbols import initial, rate, symbols, t
 from tests.derive.false_statements import BOUNDED, CASES, CONSTANT, GAP, RATE, SIZE, STEADY, forever
+from tests.programs import python
 
 MANY = range(400)
 f_c, h_0, u_c, U_a, G, p_max = symbols("f_c h_0 u_c U_a G p_max")
@@ -69,6 +72,18 @@ def test_what_models_cannot_decide_is_not_vacuous():
 def test_the_same_counterexample_is_found_again():
     case = CASES[0]
     assert falsify(case.given, case.false) == falsify(case.given, case.false)
+
+
+def test_every_process_draws_the_same_models():
+    """The parts of a condition are in the order of their hashes, which differ by process."""
+    code = """
+from derive.falsifier.draws import draw_model
+from derive.written import read
+given = (read("0 < h_0 < U < f_c < k < L < b < C"),)
+print(*(sorted(map(str, draw_model(given, (), seed).values.items())) for seed in range(6)))
+"""
+    runs = {python(code, env={**os.environ, "PYTHONHASHSEED": str(seed)}) for seed in range(3)}
+    assert len(runs) == 1
 
 
 def test_each_hypothesis_of_the_steady_rate_is_needed():
