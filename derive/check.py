@@ -12,7 +12,7 @@ from .coq.steps import proved_by_coq
 from .dimensions import dimension_fault
 from .falsifier.verdict import counterexample_without, try_on_models
 from .kernel import Judgement, replay_fault
-from .rules.assumption import Assume
+from .rules.assumption import is_hypothesis
 
 
 class Check(NamedTuple):
@@ -40,7 +40,7 @@ def model_checks(judgement: Judgement) -> tuple[Check, ...]:
 
     The kind is ``undecided`` if no model gives the claim a truth value.
     """
-    if isinstance(judgement.rule, Assume):
+    if is_hypothesis(judgement):
         return ()
     answer = try_on_models(judgement)
     kind = "falsifier" if answer.decided else "undecided"

@@ -30,7 +30,7 @@ from .kernel import Judgement, StepKey, chain, domain, step_key
 from .language import defined_by, names
 from .laws import written_out
 from .parts import bound_in
-from .rules.assumption import Assume
+from .rules.assumption import is_hypothesis
 from .symbols import DATA, QUANTITIES
 from .typeset.display import latex
 from .typeset.present import presentable
@@ -212,7 +212,7 @@ class Equation:
 
     @property
     def _assumed(self) -> bool:
-        return all(isinstance(statement.rule, Assume) for statement in self.statements)
+        return all(map(is_hypothesis, self.statements))
 
     @property
     def signs(self) -> tuple[Hypothesis, ...]:

@@ -45,6 +45,10 @@ _PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
 
 VANISHES = "the roughness vanishes in finite time; the model ends there"
 CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
+FALLS = (
+    "a roughness that falls with wear would be negative in the end, where the note's model ends: "
+    "the formulas go on with its square"
+)
 TAIL = (
     "this regime rests on a pressure that falls exponentially with h/sigma, which is not checked "
     "for a law of one's own"
@@ -241,6 +245,8 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     extremes = [case.value(drift, steepness, U_mean=case.data[end]) for end in ("U_min", "U_max")]
     if case.data["g"] < 0:
         notices = (*notices, CLOSES)
+    if min(case.data["f_c"], case.data["f_a"] * case.data["kappa"]) < 0:
+        notices = (*notices, FALLS)
     tanh = case.scene.contact.law == "tanh"
     found = offset(case.scene, per_cycle, float(mean))
     if found is None:

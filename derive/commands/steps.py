@@ -47,7 +47,7 @@ def _row(step: Judgement, numbers: Mapping[StepKey, int]) -> dict[str, Any]:
     from derive.check import step_checks
     from derive.coq.steps import proved_by_coq
     from derive.kernel import step_key
-    from derive.typeset.derivation import is_hypothesis
+    from derive.rules.assumption import is_hypothesis
     from derive.typeset.display import latex
 
     parents = [numbers[step_key(parent)] for parent in step.parents]

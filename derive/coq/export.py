@@ -23,6 +23,8 @@ from pathlib import Path
 
 from ..equations import Equation
 from ..files import write_all
+from ..kernel import Judgement
+from ..rules.assumption import is_hypothesis
 from . import proofs, refutations
 from .statements import key, obstacle, world
 from .steps import Record, Step, record, steps
@@ -74,30 +76,26 @@ class Export:
     @property
     def steps(self) -> list[Step]:
         """Return the steps to prove, premises first."""
-        return [step for step in self.stated.values() if not step.assumed]
+        return [step for step in self.stated.values() if not is_hypothesis(step.judgement)]
+
+    @cached_property
+    def inferences(self) -> list[Judgement]:
+        """Return the steps that are no hypotheses, each once; several may be one statement."""
+        every = {name: step for e in self.equations for name, step in e.keyed_steps.items()}
+        return [step for step in every.values() if not is_hypothesis(step)]
 
     @property
     def counts(self) -> dict[str, int]:
-        """Return the numbers of all steps, of closed ones, and of those that cannot be stated."""
-        closed, unstated = sum(step.closed for step in self.steps), len(self.unstated)
-        return {"steps": len(self.steps) + unstated, "closed": closed, "unstated": unstated}
-
-    @property
-    def unstated(self) -> dict[str, str]:
-        """Return the steps that cannot be stated, by their relations, with the reasons."""
-        derived = (step for e in self.equations for step in e.steps if step.parents)
-        return {str(step.relation): reason for step in derived if (reason := obstacle(step))}
+        """Return the numbers of inferences, of closed ones, and of those that cannot be stated."""
+        names = list(filter(None, map(key, self.inferences)))
+        closed, every = sum(self.stated[name].closed for name in names), len(self.inferences)
+        return {"steps": every, "closed": closed, "unstated": every - len(names)}
 
     @property
     def unrecorded(self) -> str:
         """Return a line for each step that the record lacks."""
         missing = (s for s in self.steps if s.key not in self.known)
         return "".join(f"not in the record: {s.rule} {s.relation}\n" for s in missing)
-
-    @cached_property
-    def lemmas(self) -> dict[str, str]:
-        """Return the text of each step, by its name."""
-        return {step.name: self.lemma(step) for step in self.steps}
 
     def lemma(self, step: Step) -> str:
         """Return a step with its proof, or as an open proposition."""
@@ -110,15 +108,15 @@ class Export:
         return f"{title}(* open: {reason} *)\nDefinition {proposition}.\n"
 
     @cached_property
-    def groups(self) -> dict[str, list[str]]:
-        """Return the names of steps by the section of the first equation that needs them."""
-        remaining = {step.judgement: step.name for step in self.steps}
-        groups: dict[str, list[str]] = {}
+    def groups(self) -> dict[str, list[Step]]:
+        """Return the steps by the section of the first equation that needs them."""
+        remaining = {step.judgement: step for step in self.steps}
+        groups: dict[str, list[Step]] = {}
         for equation in self.equations:
             section = re.sub(r"\W+", "_", equation.section).strip("_")
-            names = groups.setdefault(f"Section_{section}", [])
-            names += [remaining.pop(step) for step in equation.steps if step in remaining]
-        return {group: names for group, names in groups.items() if names}
+            group = groups.setdefault(f"Section_{section}", [])
+            group += [remaining.pop(step) for step in equation.steps if step in remaining]
+        return {name: group for name, group in groups.items() if group}
 
     @property
     def world(self) -> str:
@@ -130,9 +128,9 @@ class Export:
     @cached_property
     def files(self) -> dict[str, str]:
         """Return the exported files by name, each after those that it needs."""
-        home = {name: group for group, names in self.groups.items() for name in names}
+        home = {step.name: group for group, steps in self.groups.items() for step in steps}
         files = {"World": self.world}
-        groups = {g: "\n".join(self.lemmas[n] for n in names) for g, names in self.groups.items()}
+        groups = {g: "\n".join(map(self.lemma, steps)) for g, steps in self.groups.items()}
         if refuting := self.refuting:
             groups["Refutations"] = refutations.text(refuting)
         for group, text in groups.items():
@@ -146,7 +144,8 @@ class Export:
             f"From Wear Require Import {' '.join(files)}.\n"
             f"Definition everything := ({everything}).\nPrint Assumptions everything.\n"
         )
-        listed = (f"(* {text}:\n   {reason} *)\n" for text, reason in self.unstated.items())
+        unstated = ((s, obstacle(s)) for s in self.inferences if not key(s))
+        listed = (f"(* {step.relation}:\n   {reason} *)\n" for step, reason in unstated)
         return files | {"Unstated": "".join(listed)}
 
     @property

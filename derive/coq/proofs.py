@@ -38,7 +38,7 @@ def script(step: Step) -> str:
 
 
 def _body(step: Step) -> list[str]:
-    if cited := theorems.proof(step):
+    if cited := "assumption." if step.assumed else theorems.proof(step):
         return [cited]
     if step.limits or step.relation.has(sp.Limit):
         return _limit(step)

@@ -90,7 +90,8 @@ def below_maximum() -> Finding:
     """C5: 0 < p < p_max."""
     within = sign(TANH.phi) == 1 and sign(1 - TANH.phi) == 1
     edges = [sp.limit(TANH.phi, r, end) for end in (-sp.oo, sp.oo)]
-    return _finding(within, f"0 < p/p_max < 1 for every h; limits {edges[0]} and {edges[1]}")
+    smooth = f"0 < p/p_max < 1 for every h, with limits {edges[0]} and {edges[1]}"
+    return _finding(within, f"without its cutoff (4) gives {smooth}; with it p = 0 beyond 3 sigma")
 
 
 def increasing() -> Finding:
@@ -131,7 +132,7 @@ def given_force() -> Finding:
     least, most = (sp.limit(TANH.phi, r, end) for end in (sp.oo, -sp.oo))
     if not good:
         return Finding(Verdict.REFUTED, evidence)
-    needs = f"the range of (4) is {least} < p/p_max < {most}"
+    needs = f"without its cutoff the range of (4) is {least} < p/p_max < {most}"
     return Finding(Verdict.CONDITIONAL, f"{evidence}: {needs}")
 
 

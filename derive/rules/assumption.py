@@ -209,6 +209,11 @@ def _is_bound(sides: sp.Tuple, relation: sp.Equality) -> bool:
     return any(_new_fields(e, relation) for e in sp.preorder_traversal(sides) if bound(e))
 
 
+def is_hypothesis(judgement: Judgement) -> bool:
+    """Return whether a judgement is assumed, not inferred."""
+    return isinstance(judgement.rule, Assume)
+
+
 def assume(hypothesis: Hypothesis, name: str = "", remark: str = "") -> Judgement:
     """Return the judgement of a hypothesis."""
     return infer(Assume(hypothesis), name=name, remark=remark)

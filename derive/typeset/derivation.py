@@ -22,7 +22,7 @@ from ..claims import Predicate, Term
 from ..hypotheses import Hypothesis, Kind
 from ..kernel import Judgement
 from ..laws import GENERAL
-from ..rules.assumption import Assume
+from ..rules.assumption import is_hypothesis
 from . import formula
 from .display import inline, latex
 from .macros import macro_name, macros, rendered
@@ -184,11 +184,6 @@ def _assumed(hypothesis: Judgement) -> str:
     long = isinstance(relation, Predicate) or len(str(relation)) > _SHORT
     by_words = supposed.words and long
     return supposed.words if by_words else f"${inline(presentable(relation))}$"
-
-
-def is_hypothesis(statement: Judgement) -> bool:
-    """Return whether a statement is taken from the note, or assumed."""
-    return isinstance(statement.rule, Assume)
 
 
 def prose(equations: Sequence[Equation], width: float) -> str:

@@ -160,6 +160,15 @@ def test_the_record_is_of_these_statements():
     assert len(record()) == len(made.steps)
 
 
+def test_every_inference_is_closed_or_listed_with_its_reason():
+    made = export.Export(catalogue.all_equations())
+    proved = [step for step in made.inferences if proved_by_coq(step)]
+    listed = re.findall(r"^\(\* .*:\n   (.+) \*\)$", made.files["Unstated"], re.MULTILINE)
+    assert made.counts["closed"] == len(proved)
+    assert made.counts["unstated"] == len(listed)
+    assert len(proved) + len(listed) == made.counts["steps"] == len(made.inferences)
+
+
 def test_nothing_is_admitted():
     for path in (*export.LIBRARY.glob("*.v"), *export.LIBRARY.glob("*.jinja")):
         text = path.read_text(encoding="utf-8")
@@ -194,7 +203,8 @@ def test_the_sample_is_compiled(deviation):
 @needs_coq
 def test_mutated_exports_do_not_compile(deviation):
     folder, made = deviation
-    (lemma,) = (x for x in made.lemmas.items() if "U_c t = p t/k" in x[1])
+    lemmas = ((step.name, made.lemma(step)) for step in made.steps)
+    (lemma,) = (pair for pair in lemmas if "U_c t = p t/k" in pair[1])
     mutations = {
         "sign": ("U_c t = p t/k", "U_c t = - p t/k"),
         "factor": ("U_c t = p t/k", "U_c t = 2*p t/k"),

@@ -61,8 +61,9 @@ def two_stages() -> Finding:
     shown = ", ".join(f"{step:.3e}" for step in steps)
     evidence = (
         f"wear of one cycle after {', '.join(map(str, cycles))} cycles: {shown} mm; a doubling "
-        f"from {cycles[2]} changes it by a factor {still:.3f}, and the limit is "
-        f"{_limit('section3'):.2e} mm: the rate decays without end. With loss of contact "
+        f"from {cycles[2]} changes it by a factor {still:.3f}, and no level is near: "
+        f"(two-solids-rate), which needs f_c >= 0, would be {_limit('section3'):.2e} mm. With loss "
+        f"of contact "
         f"wear stops at {stop.arrest_wear_mm:.4e} mm, in cycle {stop.arrest_cycle}: there is no "
         "stabilised stage either way"
     )
@@ -166,9 +167,8 @@ def data_and_condition() -> Finding:
     shown = ", ".join(f"f_c = {growth} in {name}" for name, growth in growths.items())
     return Finding(
         Verdict.CONFIRMED if met else Verdict.INCONSISTENT,
-        f"{shown}; the note asks for f_c > {LEAST_GROWTH}; the limit of two solids, "
-        f"(two-solids-rate), is {_limit('section3'):.2e} and {_limit('section5'):.2e} mm a "
-        "cycle",
+        f"{shown}; the note asks for f_c > {LEAST_GROWTH}; (two-solids-rate), which needs "
+        f"f_c >= 0, is {_limit('section3'):.2e} and {_limit('section5'):.2e} mm a cycle",
     )
 
 
