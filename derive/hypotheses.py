@@ -156,7 +156,10 @@ ROUGHENING, KEPT, SMOOTHING, NOT_SMOOTHING, SLOPED = (
 BOUNDED_LOAD = Hypothesis(sp.Le(sp.Abs(U_a), U))
 UNSATURATED = Hypothesis(sp.And(sp.Gt(p, 0), sp.Lt(p, p_max)))
 OPEN_GAP = Hypothesis(sp.Ne(h, 0))
+ANY_LAW = Hypothesis(sp.Lt(GENERAL.phi.diff(GENERAL.phi.args[0]), 0))
+"""What is supposed of an unspecified contact law: it is positive and smooth, too."""
 
+_ANY = "any positive, smooth, decreasing contact law phi"
 _SETTINGS = MappingProxyType(
     {
         SMOOTH_PIN.relation: "smooth pin",
@@ -164,9 +167,8 @@ _SETTINGS = MappingProxyType(
         RIGID.relation: "rigid support",
         model.CLOSURE[True]: "wear of the pin opens the gap",
         model.at_every_closure(TANH): "no loss of contact",
-        model.at_every_closure(GENERAL): (
-            "any positive, smooth, decreasing contact law phi without loss of contact"
-        ),
+        ANY_LAW.relation: _ANY,
+        model.at_every_closure(GENERAL): f"{_ANY} without loss of contact",
         UNCOUPLED[0].relation: "roughness of the pin unaffected by wear of the bearing",
         UNCOUPLED[1].relation: "roughness of the bearing unaffected by wear of the pin",
         PERIODIC.relation: "load of period T",

@@ -36,7 +36,7 @@ from sympy.core.relational import Relational
 
 from .claims import Claim
 from .consistency import inconsistency
-from .hypotheses import Hypothesis, Kind
+from .hypotheses import ANY_LAW, Hypothesis, Kind
 from .language import fault, in_time, names, typeset_name, without_time
 from .laws import GENERAL
 from .memory import cache, is_standard
@@ -45,6 +45,7 @@ from .time_limit import TimeLimitError, time_limit
 
 _RULES = "derive.rules."
 _TOKEN = object()
+_PHI = GENERAL.phi.func
 _OPTIONAL = re.compile(r"\[(.*?)\]")
 LIMIT_S = 60.0
 """Limit of CPU time for a symbolic step, in seconds."""
@@ -167,17 +168,23 @@ class Judgement:
 
     @property
     def signs(self) -> tuple[Hypothesis, ...]:
-        """Return the signs of names that neither the vocabulary nor a definition has."""
+        """Return the signs of names that neither the vocabulary nor a definition has, and what is
+        supposed of a contact law phi if no hypothesis says it."""
         named = {h.relation.args[0] for h in self.hypotheses if h.kind is Kind.DEFINITION}
         free = (each for each in self.domains if each.args[0] not in named)
         own = (each for each in free if {name for name, _ in names(each)} - QUANTITIES.keys())
-        return tuple(map(Hypothesis, own))
+        said = any(h.is_setting and h.relation.has(_PHI) for h in self.hypotheses)
+        law = () if said or not any(r.has(_PHI) for r in self._relations) else (ANY_LAW,)
+        return (*law, *map(Hypothesis, own))
 
     @property
     def domains(self) -> tuple[sp.Basic, ...]:
         """Return the domains of the names that occur, those of authors included."""
-        relations = (self.relation, *(h.relation for h in self.hypotheses))
-        return tuple(sorted({known for r in relations for known in _domains(r)}, key=str))
+        return tuple(sorted({known for r in self._relations for known in _domains(r)}, key=str))
+
+    @property
+    def _relations(self) -> tuple[sp.Basic, ...]:
+        return (self.relation, *(h.relation for h in self.hypotheses))
 
     def named(self, name: str, remark: str = "") -> Judgement:
         """Return the same judgement under another name."""
@@ -196,7 +203,7 @@ _MADE: WeakKeyDictionary[Judgement, tuple[tuple[object, ...], object]] = WeakKey
 @cache
 def _domains(relation: sp.Basic) -> tuple[sp.Basic, ...]:
     """Return the domains of the free names in a relation, but the contact law."""
-    fields = (f for f in relation.atoms(AppliedUndef) if f.func != GENERAL.phi.func)
+    fields = (f for f in relation.atoms(AppliedUndef) if f.func != _PHI)
     known = map(domain, (*relation.free_symbols, *fields))
     return tuple(each for each in known if each is not None)
 

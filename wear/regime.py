@@ -38,17 +38,15 @@ from wear.quantities import MOST_CYCLES
 from wear.scene import Scene, as_scene
 from wear.solver import solve
 from wear.stabilisation import TOLERANCE, settled
+from wear.states import fields_at, negative_roughness
 
 _DIGITS = decimal.Context(prec=60, Emin=-(10**15), Emax=10**15)
 _DIGITS.traps[decimal.Overflow] = False  # infinity: the pressure of a gap beyond all bounds is zero
 _PHASES = (np.arange(4096) + 0.5) / 4096  # of a cycle
+_FAR = 1e12  # a wear in mm at which every roughness that falls is negative
 
 VANISHES = "the roughness vanishes in finite time; the model ends there"
 CLOSES = "with the sign of Eq. (1) as printed, wear of the pin closes the gap without end"
-FALLS = (
-    "a roughness that falls with wear would be negative in the end, where the note's model ends: "
-    "the formulas go on with its square"
-)
 TAIL = (
     "this regime rests on a pressure that falls exponentially with h/sigma, which is not checked "
     "for a law of one's own"
@@ -245,8 +243,7 @@ def _steady(case: _Case, notices: tuple[str, ...] = ()) -> Asymptote:
     extremes = [case.value(drift, steepness, U_mean=case.data[end]) for end in ("U_min", "U_max")]
     if case.data["g"] < 0:
         notices = (*notices, CLOSES)
-    if min(case.data["f_c"], case.data["f_a"] * case.data["kappa"]) < 0:
-        notices = (*notices, FALLS)
+    notices = (*notices, *_negative_roughness(case, _FAR))
     tanh = case.scene.contact.law == "tanh"
     found = offset(case.scene, per_cycle, float(mean))
     if found is None:
@@ -376,8 +373,14 @@ def _arrest(case: _Case, depth: float) -> Asymptote:
         pressure_MPa=0.0,
         arrest_wear_mm=depth,
         arrest_cycle=cycle,
-        notices=notices,
+        notices=(*_negative_roughness(case, depth), *notices),
     )
+
+
+def _negative_roughness(case: _Case, wear: float) -> tuple[str, ...]:
+    """Return a notice for each solid whose roughness is negative at a wear."""
+    model, reached = bind(case.scene), np.array([wear])
+    return negative_roughness(model, fields_at(model, case.scene, [0], reached), reached)
 
 
 def _arrest_cycle(case: _Case) -> tuple[int | None, tuple[str, ...]]:

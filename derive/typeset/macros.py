@@ -5,7 +5,7 @@ Key results
     macros          the text of a file that defines them, and the table of their symbols
     WIDTH           their greatest width
     occurring       the quantities that occur in expressions, in the order of the vocabulary
-    nomenclature    a tabular with the symbols of equations, their meanings and units
+    nomenclature    a tabular with the quantities of the model in equations, their units
     unit            that of a quantity, in LaTeX
     rendered        the text of a template of LaTeX
 """
@@ -73,7 +73,7 @@ def macros(equations: Sequence[Equation], width: float = WIDTH) -> str:
     r"""Return LaTeX that defines a macro for each equation, \EqNote and \WearNomenclature.
 
     \EqNote{14} is the equation of that id. Formulas wider than ``width`` em are broken. Needs
-    amsmath, and booktabs for the nomenclature, the table of the symbols of these equations. A
+    amsmath, and booktabs for the nomenclature, the table of the quantities of the model in them. A
     second file may define some of the macros again.
     """
     return rendered(
@@ -102,7 +102,7 @@ def occurring(expressions: Iterable[sp.Basic]) -> tuple[Quantity, ...]:
 
 
 def nomenclature(equations: Iterable[Equation]) -> str:
-    """Return a tabular of the symbols of equations; needs amsmath and booktabs."""
+    """Return a tabular of the quantities of the model; needs amsmath and booktabs."""
     names = occurring(part for each in equations for part in (*each.shown, *each.where))
     return rendered("nomenclature", quantities=names, in_latex=in_latex, unit=unit).rstrip()
 

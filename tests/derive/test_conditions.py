@@ -215,15 +215,25 @@ def test_another_contact_law_than_the_notes_is_a_condition() -> None:
 
 
 def test_words_are_about_quantities_that_nobody_defines() -> None:
-    """The load is not steady where beta = 2 (b_0 + U_a) is not zero: beta may stand for others."""
-    meant = {*DATA, *(field.__name__ for field in FIELDS), "f_aa", "f_cc", "omega", "phi", "t"}
+    """The load is not steady where beta = 2 (b_0 + U_a) is not zero: beta may stand for others.
+
+    A contact law decreases at every r, whatever r is.
+    """
+    meant = {*DATA, *(field.__name__ for field in FIELDS), "f_aa", "f_cc", "omega", "phi", "r", "t"}
     for table in (hypotheses._SETTINGS, hypotheses._OTHERS):
         for relation in table:
             assert {name for name, _ in names(relation)} <= meant, relation
 
 
+def test_an_equation_in_phi_says_what_phi_is() -> None:
+    for found in catalogue.all_equations():
+        if found.relation.has(GENERAL.phi.func):
+            assert any("decreasing contact law phi" in h.text for h in found.conditions)
+
+
 def test_every_hypothesis_with_words_is_one_of_the_catalogue() -> None:
-    used = {h.relation for e in catalogue.all_equations() for h in e.hypotheses}
+    every = catalogue.all_equations()
+    used = {h.relation for e in every for h in (*e.hypotheses, *e.signs)}
     unused = {*hypotheses._SETTINGS, *hypotheses._OTHERS} - used
     assert unused == {*SLIP, CLOSURE[True]}
 

@@ -152,6 +152,20 @@ def test_every_scene_has_an_answer(name):
     assert asymptote(name).regime in regimes
 
 
+def test_a_roughness_that_falls_below_zero_is_told():
+    """A limit or a depth of arrest beyond that wear is not one of the note's model."""
+    thin = [f"bearing.roughness{end}" for end in ("_growth=-0.2", "_mm=1e-5")]
+    thin += ["pin.roughness_growth=0.1"]
+    for name, overrides, depth in (
+        ("section3", (), "0.0072"), ("section5-cutoff", thin, "5e-05"),
+    ):  # fmt: skip
+        told = [text for text in _asymptote(name, *overrides).notices if "is negative" in text]
+        assert len(told) == 1
+        assert f"roughness of the bearing is negative beyond u_c = {depth} mm" in told[0]
+    for name in ("section3-cutoff", "section5", "f-tiny-negative"):
+        assert not any("is negative" in text for text in _asymptote(name).notices)
+
+
 def test_a_gap_that_opens_a_billion_times_faster_than_roughness_grows():
     """exp(4 h/sigma) overflows even decimals of any exponent."""
     found = asymptote(load_scene("section4", ["bearing.roughness_growth=1e-20"]))
