@@ -69,7 +69,7 @@ def opened(printed: Equation) -> Equation:
     g = 1 + kappa instead of 1 - kappa, if it has one.
 
     >>> from derive.catalogue import equation
-    >>> opened(equation("two-solids-rate")).definitions_latex[-1]
+    >>> opened(equation("two-solids-rate")).definitions_latex[1]
     'g = 1 + \\\\kappa'
     """
     from .results.two_solids import TwoSolids
