@@ -8,6 +8,7 @@ Overview
     ``python -m derive.reasons`` renews it.
 Key results
     table        the rows, equation after equation
+    line_of      the line of its equation that a row is about
     outdated     the equations whose rows are missing, or no longer true
 """
 
@@ -19,6 +20,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
+from . import catalogue
 from .claims import Predicate
 from .equations import Equation
 from .falsifier.verdict import SEEDS, counterexample_without, is_open_without
@@ -54,6 +56,12 @@ def table() -> tuple[Reason, ...]:
     """Return the committed rows, in the order of the catalogue."""
     rows = json.loads(TABLE.read_text(encoding="utf-8"))
     return tuple(Reason(**{**row, "model": tuple(row["model"])}) for row in rows)
+
+
+def line_of(row: Reason) -> int:
+    """Return the place of a row's formula, from 1, in an equation of several; 0 if it is one."""
+    keys = [key(statement) for statement in catalogue.equation(row.equation).statements]
+    return keys.index(row.key) + 1 if len(keys) > 1 else 0
 
 
 def outdated(equations: Sequence[Equation], rows: Sequence[Reason]) -> list[str]:
@@ -125,9 +133,7 @@ def reason(
 
 def main() -> None:
     """Write the table of the note's equations."""
-    from .catalogue import all_equations
-
-    of_the_note = [entry for entry in all_equations() if entry.id[0].isdigit()]
+    of_the_note = [entry for entry in catalogue.all_equations() if entry.id[0].isdigit()]
     rows = [asdict(row) for row in renewed(of_the_note, table() if TABLE.exists() else ())]
     write_atomically(TABLE, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
 

@@ -197,9 +197,10 @@ def _without_cutoff(case: _Case) -> Asymptote:
     end = case.vanishing
     if end is None:
         return _steady(case)
-    gap = case.value(formula.gap_at_peak, end)
-    if gap > 0 or (gap == 0 and _has_sharp_peaks(case.load)):
-        how = "logarithmically slowly" if gap > 0 else "exponentially"
+    gap, yields = case.value(formula.gap_at_peak, end), case.scene.support is not None
+    if gap > 0 or (gap == 0 and (yields or _has_sharp_peaks(case.load))):
+        just = "like a power of the cycles" if yields else "exponentially"
+        how = "logarithmically slowly" if gap > 0 else just
         said = f"wear approaches this depth, {how}, as the roughness vanishes"
         notices = (said, *case.doubts)
         return _result(case, "saturating", saturation_wear_mm=float(end), notices=notices)

@@ -32,7 +32,8 @@ _gap = h_0 - sigma_c0 / f_c - U_max
 OPEN, CLOSED = Hypothesis(sp.Gt(_gap, 0)), Hypothesis(sp.Le(_gap, 0))
 """Whether there is a gap at the wear at which the roughness would vanish.
 
-At h* = 0 the roughness vanishes in finite time if the peak of the load is smooth."""
+At h* = 0 the roughness vanishes in finite time on a rigid support if the peak of the load is
+smooth."""
 _room = 3 * sigma_c0 - h_0 + U_max
 TOUCHING, APART = Hypothesis(sp.Gt(_room, 0)), Hypothesis(sp.Le(_room, 0))
 """Whether the peak of the load makes contact at the start.

@@ -46,11 +46,16 @@ def conditions() -> str:
     parts = []
     for identifier, rows in groupby(reasons.table(), key=lambda row: row.equation):
         parts.append(f"## {_heading(equation(identifier))}\n\n{_block(equation(identifier).latex)}")
-        formulas = [reasons.key(statement) for statement in equation(identifier).statements]
-        for key, group in groupby(rows, key=lambda row: row.key):
-            several = len(formulas) > 1 and f"Formula {formulas.index(key) + 1}:\n\n"
-            parts.append((several or "") + "\n".join(map(_without, group)))
+        for line, group in groupby(rows, key=reasons.line_of):
+            head = _line(identifier, line) if line else ""
+            parts.append(head + "\n".join(map(_without, group)))
     return "\n\n".join(parts)
+
+
+def _line(identifier: str, line: int) -> str:
+    """The number of one of several formulas, and its conditions, which may differ."""
+    needed = map(_condition, equation(identifier).statements[line - 1].conditions)
+    return f"Formula {line}, if {', '.join(dict.fromkeys(needed))}:\n\n"
 
 
 def _without(row: reasons.Reason) -> str:

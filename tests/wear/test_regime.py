@@ -284,7 +284,8 @@ def test_wear_has_settled_when_it_is_said_to_have(slope):
 
 
 def test_roughness_that_a_sharp_peak_just_exhausts_does_not_vanish():
-    """h* is 0: near a smooth peak the roughness vanishes in finite time, near a corner never."""
+    """h* is 0: near a smooth peak the roughness vanishes in finite time, near a corner or on
+    springs never."""
     scene = load_scene("section4").with_(
         {"bearing.roughness_mm": 2.0**-11, "bearing.roughness_growth": -0.5,
          "contact.closure_mm": 2.0**-10}
@@ -293,3 +294,7 @@ def test_roughness_that_a_sharp_peak_just_exhausts_does_not_vanish():
     smooth = Harmonics(2.0**-10, (-(2.0**-10),), (), 0.06)
     assert asymptote(scene.with_({"load": triangle})).regime == "saturating"
     assert asymptote(scene.with_({"load": smooth})).regime == "finite-time"
+    springs = scene.with_({"load": smooth, "support.stiffness_MPa_per_mm": 1e5})
+    found = asymptote(springs)
+    assert found.regime == "saturating"
+    assert "like a power of the cycles" in found.notices[-1]

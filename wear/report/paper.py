@@ -17,7 +17,7 @@ import sympy as sp
 
 from derive.equations import Equation
 from derive.kernel import listed
-from derive.reasons import table
+from derive.reasons import line_of, table
 from derive.results.regime_map import OPEN, REGIMES
 from derive.results.validity import RESOLUTIONS
 from derive.symbols import QUANTITIES
@@ -75,6 +75,7 @@ def paper(
         "section": _section,
         "capital": capital,
         "conditions": [row for row in table() if row.model],
+        "line": line_of,
         "examples": [runs.histories[name].definition for name in note.EXAMPLES],
         "static_cycles": float(STATIC_CYCLES[-1]),
         "drift_distance": _drift_distance(runs),
