@@ -195,7 +195,7 @@ def _cases(expr: sp.Piecewise) -> Value:
 
     def value(moment: Moment) -> Number:
         for branch, condition in values:
-            holds = holds_at(condition, moment)
+            holds = holds_at(condition, moment, agree=False)
             if holds is None:
                 raise UndecidedError("a condition of a piecewise expression")
             if holds:
@@ -219,19 +219,22 @@ _SPECIAL: tuple[tuple[type, Callable[..., Value]], ...] = (
 )
 
 
-def holds_at(relation: sp.Basic, moment: Moment) -> bool | None:
-    """Return whether a relation holds at a moment, None if it is undecided."""
+def holds_at(relation: sp.Basic, moment: Moment, agree: bool = True) -> bool | None:
+    """Return whether a relation holds at a moment, None if it is undecided.
+
+    With ``agree`` two sides whose balls overlap count as equal if these are narrow.
+    """
     if relation in (sp.true, sp.false):
         return bool(relation)
     if isinstance(relation, (sp.And, sp.Or)):
         composed = fuzzy_and if isinstance(relation, sp.And) else fuzzy_or
-        return composed(holds_at(part, moment) for part in relation.args)
+        return composed(holds_at(part, moment, agree) for part in relation.args)
     if isinstance(relation, (sp.Not, sp.Implies, sp.Equivalent)):
-        return holds_at(_normal_form(relation), moment)
+        return holds_at(_normal_form(relation), moment, agree)
     if isinstance(relation, Relational):
         for bits in (BITS, 4 * BITS):
             with ctx.workprec(bits), suppress(UndecidedError):
-                outcome = _compared(relation, moment, final=bits > BITS)
+                outcome = _compared(relation, moment, bits > BITS, agree)
                 if outcome is not None:
                     return outcome
     return None
@@ -243,7 +246,7 @@ def _normal_form(relation: BooleanFunction) -> sp.Basic:
     return relation.to_nnf(simplify=False)
 
 
-def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
+def _compared(relation: Relational, moment: Moment, final: bool, agree: bool) -> bool | None:
     left, right = relation.args
     if right == sp.oo and relation.rel_op in ("<", "<="):
         return True
@@ -265,7 +268,7 @@ def _compared(relation: Relational, moment: Moment, final: bool) -> bool | None:
         return bool(_COMPARED[relation.rel_op](gap, 0))
     gap = ball(gap)
     size = max(abs(ball(term)).upper() for term in chain(*terms))
-    if not final and gap.rad() <= _ROUNDING * size:
+    if not agree or (not final and gap.rad() <= _ROUNDING * size):
         return None  # more digits may separate them
     if isinstance(relation, (sp.Eq, sp.Ge, sp.Le)) and gap.rad() <= max(_AGREE * size, _SMALL):
         return True

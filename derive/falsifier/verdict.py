@@ -36,7 +36,7 @@ from ..hypotheses import Hypothesis
 from ..kernel import Judgement, domain
 from ..language import without_time
 from ..memory import cache
-from ..symbols import symbol, t
+from ..symbols import CLOCKS, symbol, t
 from .balls import fraction
 from .draws import LAWS, WILD, draw_model, slides_fast, slopes_over_data, with_law
 from .expansion import ExpansionTerm
@@ -328,6 +328,8 @@ def _in_time(relations: Relations, imposed: Relations) -> Relations:
     while (given := next(filter(_defines_clock, rest), None)) is not None:
         relations = tuple(_inserted(given, relation) for relation in relations)
         rest = tuple(_inserted(given, relation) for relation in rest if relation is not given)
+        if given.lhs.name not in CLOCKS:  # a constant, and so is its value
+            relations = (sp.Eq(given.rhs, given.rhs.subs(t, 0), evaluate=False), *relations)
     return relations
 
 

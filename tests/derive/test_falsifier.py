@@ -157,6 +157,20 @@ def test_a_model_whose_fields_leave_their_domains_late_is_none():
     assert found.models == 0
 
 
+@pytest.mark.parametrize("constant", symbols("theta C q"), ids=str)
+def test_a_constant_makes_constant_what_it_equals(constant):
+    given = (sp.Eq(constant, h_0 - U_a),)
+    later = sp.Eq(constant, h_0 - U_a.subs(t, t + symbols("T")[0]))
+    holds_but_not(given, later, sp.Eq(constant, h_0))
+
+
+def test_a_branch_is_taken_if_its_condition_is_decided():
+    """At late times h is above L by less than all digits."""
+    h, L, q = symbols("h L q")
+    closed = sp.Piecewise((q, h <= L), (0, True))
+    assert falsify((sp.Eq(G, closed), sp.Eq(h, L + sp.exp(-t)), sp.Gt(q, 0)), sp.Eq(G, 0)).passed
+
+
 def test_the_two_sides_are_shown_to_as_many_digits_as_part_them():
     close = sp.Eq(h_0, 2 + sp.Rational(1, 10**9))
     broken = falsify((sp.Eq(h_0, 2),), close)
