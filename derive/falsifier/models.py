@@ -255,7 +255,8 @@ class Model:
         puts these out of reach; an open case is tried again at earlier times.  At early times
         fields may not have left their start, at late ones rounding may hide them.
         """
-        outcome = trend.tends_to(self._trend_values(expr, _FAR, _APART), end)
+        values = self._trend_values(expr, _FAR, _APART)
+        outcome = trend.tends_to(values, end, apart=not self.states)
         if outcome or not self.states or expr.args[2] != sp.oo:
             return outcome
         try:

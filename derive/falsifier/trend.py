@@ -31,19 +31,25 @@ _RESOLVED = arb(10) ** -9
 _GROSS = arb(10) ** -3
 
 
-def tends_to(windows: Sequence[Window], value: arb) -> bool | None:
-    """Return whether values tend to ``value``, which may be infinite."""
+def tends_to(windows: Sequence[Window], value: arb, apart: bool = False) -> bool | None:
+    """Return whether values tend to ``value``, which may be infinite.
+
+    If windows are ``apart`` by large factors in the logarithm of time, a trend is clear only if the
+    distances that remain in the end are: they are extrapolated.
+    """
     if not value.is_finite():
         return _diverges(windows, 1 if value > 0 else -1)
     first, before, last = (max(abs(v - value).mid() for v in w) for w in windows[-3:])
     size = max(*(abs(v).mid() for v in windows[-1]), abs(value).mid())
     if any(v.rad() > _GROSS * (abs(v - value) + _RESOLVED * size) for v in windows[-1]):
         return True if all(abs(v - value).upper() <= _GROSS * size for v in windows[-1]) else None
-    if last <= _RESOLVED * size or (last < arb("0.85") * before and before < arb("0.95") * first):
+    falls = last < arb("0.85") * before and before < arb("0.95") * first
+    stops = apart and _extrapolated(first, before, last) > arb("0.2") * last
+    if last <= _RESOLVED * size or (falls and not stops):
         return True
     distances = [abs(v - value).mid() for v in windows[-1]]
     falling = all(later < now for now, later in pairwise(distances))
-    hastens = falling and before - last > first - before
+    hastens = falling and before - last > (arb("0.75") if apart else 1) * (first - before)
     stays = last >= arb("0.97") * before and before >= arb("0.9") * first and not hastens
     return False if stays and last > _GROSS * size else None
 

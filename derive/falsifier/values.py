@@ -2,9 +2,10 @@
 
 Overview
     An expression is compiled, once, to a function of a moment (a model and a time).  Derivatives
-    in time are those of the fields' formulas.  Equations are compared to 20 digits and more,
-    inequalities are decided if the balls of the two sides do not overlap (with four times the
-    precision if they do at first).  A limit is judged by its trend.  Hypotheses and claims are
+    in time are those of the fields' formulas.  Equations are compared to the digits that their
+    sides have, 20 and more, or up to 12 with fields that are integrated; inequalities are decided
+    if the balls of the two sides do not overlap (with four times the precision if they do at
+    first).  A limit is judged by its trend.  Hypotheses and claims are
     about all times: a relation is evaluated at the model's times, and does not hold if one of its
     sides has no value (0/0).
 Key results

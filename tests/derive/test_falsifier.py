@@ -262,6 +262,17 @@ def test_what_falls_ever_faster_has_no_trend_yet():
     assert trend.tends_to(waves, arb(0)) is False
 
 
+def test_slow_trends_are_told_from_limits():
+    """log log t grows, if by a few per cent; 1/log t brings a field near other numbers first."""
+    T = symbols("T")[0]
+    slow = sp.Eq(G, 50 + sp.log(1 + sp.log(1 + t / T)))
+    assert falsify((slow,), sp.Eq(forever(1 / G), 0)).passed
+    near = (sp.Eq(G, h_0 * (1 + 100 / (1 + sp.log(1 + t / T)))), sp.Gt(h_0, 0))
+    assert falsify(near, sp.Eq(forever(G), h_0)).decided
+    for part in (-2, 0, sp.Rational(1, 2)):
+        assert not falsify(near, sp.Eq(forever(G), part * h_0)).decided
+
+
 def test_a_load_that_goes_on_to_vary_leaves_a_limit_refutable():
     """Late times are then out of reach; faster wear confirms that the rate has no limit."""
     (statement,) = catalogue.equation("14").statements
