@@ -107,7 +107,7 @@ class Term(sp.Expr):
     letter = ""
     words = (
         "s = m + w_1/m + w_2/m^2 + ... with dm/dtau = rho (1 + c_1/m + ...) and each w_n of "
-        "period 1 and mean 0 in tau, which solves ds/dtau = rho F/F(oo) for F in brackets"
+        "period 1 and mean 0 in tau, which solves ds/dtau = rho F/F(oo) for F(s) in brackets"
     )
 
     @property
@@ -126,13 +126,19 @@ class Term(sp.Expr):
         return set().union(*(part.free_symbols for part in self.args)) - {self.args[2]}
 
     def _latex(self, printer: sp.printing.printer.Printer) -> str:
-        n, law, *_ = map(printer.doprint, self.args)
+        n, law = map(printer.doprint, (self.args[0], self._law))
         return rf"{self.letter}_{{{n}}}\left[{law}\right]"
 
     def _pretty(self, printer: PrettyPrinter) -> prettyForm:
-        n, law, *_ = self.args
-        name = printer._print(sp.Symbol(f"{self.letter}_{n}"))
-        return prettyForm(*name.right(prettyForm(*printer._print(law).parens("[", "]"))))
+        name = printer._print(sp.Symbol(f"{self.letter}_{self.args[0]}"))
+        return prettyForm(*name.right(prettyForm(*printer._print(self._law).parens("[", "]"))))
+
+    @property
+    def _law(self) -> sp.Expr:
+        """Return F as a function of s, whatever its variable is called, unless it has an s."""
+        _, law, variable, *_ = self.args
+        taken = {name.name for name in law.free_symbols - {variable}}
+        return law if "s" in taken else law.xreplace({variable: sp.Symbol("s", positive=True)})
 
 
 class Drift(Term):

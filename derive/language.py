@@ -72,11 +72,16 @@ _WORDS = frozenset(head.__name__ for head in _HEADS) | {
         "E",
         "sqrt",
         "lim",
+        "inf",
+        "sup",
+        "max",
+        "min",
         "ln",
         "true",
         "false",
         "phi",
         "o",
+        "O",
         "e",
         "W",
     ),
@@ -352,9 +357,10 @@ def _fault_of_name(node: sp.Expr, name: str) -> str | None:
 
 def _shows(name: str) -> bool:
     """Return whether a name is typeset unchanged, and unlike every quantity of the vocabulary, its
-    differential and its extremes."""
-    shown = typeset_name(name)
-    unlike = shown.translate(_MARKS) not in _FACES
+    differential and its extremes, and unlike an operator with an index (``lim_t``)."""
+    shown, stem = typeset_name(name), name.rstrip("0123456789").partition("_")[0]
+    unlike = shown.translate(_MARKS) not in _FACES and not re.fullmatch("d[A-Za-z]", name)
+    unlike &= stem == name or len(stem) == 1 or stem not in _WORDS
     unlike &= not any(name == operator + of for operator in _OPERATORS for of in _OPERANDS)
     return unlike and re.sub(r"[\\_{}]", "", shown) == name.replace("_", "")
 

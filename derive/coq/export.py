@@ -34,8 +34,7 @@ THEOREMS = ("Tanh", "Limits", "Integrals", "Drift", "Tactics")
 """The files of the library, each after those that it needs."""
 
 AXIOMS = (
-    "ClassicalDedekindReals.sig_forall_dec",
-    "ClassicalDedekindReals.sig_not_dec",
+    *(f"ClassicalDedekindReals.sig_{each}_dec" for each in ("forall", "not")),
     "FunctionalExtensionality.functional_extensionality_dep",
     "Classical_Prop.classic",
     *("PrimInt63.", "Uint63."),

@@ -100,8 +100,8 @@ class _CoqPrinter(StrPrinter):
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
         base, exponent = expr.args
-        if not (2 * exponent).is_Integer:
-            return f"Rpower {_inner(base)} {_inner(exponent)}"
+        if not (2 * exponent).is_Integer:  # Rpower is 1 at 0
+            raise UntranslatableError(f"a power with the exponent {exponent}")
         if exponent < 0:
             return f"(/ {_inner(1 / expr)})"
         if exponent.is_Integer:
@@ -155,7 +155,7 @@ def proposition(relation: sp.Basic) -> str:
 
     An equation between a quantity and a limit asserts that the limit exists.
     """
-    if isinstance(relation, Continuous):
+    if isinstance(relation, Continuous) and relation.args[0].args == (t,):
         return f"continuous_in_time {quantity(relation.args[0])}"
     if relation.func in _CONNECTIVES:
         return _CONNECTIVES[relation.func].join(f"({proposition(part)})" for part in relation.args)

@@ -24,7 +24,8 @@ from operator import methodcaller
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ..kernel import Judgement
+from ..hypotheses import Kind
+from ..kernel import Judgement, domain
 from ..rules.data import DataDerivative
 from ..symbols import CLOCKS, t
 from . import printer
@@ -60,6 +61,7 @@ _LAW = (
     Fact("law_positive", "forall r, 0 < phi r"),
     Fact("law_decreasing", "forall r r', r < r' -> phi r' < phi r"),
     Fact("law_differentiable", "forall r, ex_derive phi r"),
+    Fact("law_slope", "forall r, Derive phi r < 0"),
 )
 """The assumptions on an unspecified contact law."""
 
@@ -84,9 +86,10 @@ def statement(judgement: Judgement) -> Statement:
     supposed = {h.relation.xreplace(of_time): f"for_{_words(h.text)}" for h in judgement.hypotheses}
     free = said.free_symbols.union(*(relation.free_symbols for relation in supposed))
     supposed.pop(sp.true, None)
-    for domain in judgement.domains:
-        if (atom := domain.args[0]).args == (t,) or atom in free - {t}:
-            supposed.setdefault(domain, f"domain_{printer.quantity(atom)}")
+    atoms = (known.args[0] for known in judgement.domains)
+    named = {a.func(t) if a.args else a: None for a in atoms if a.args or a in free - {t}}
+    domains = {domain(atom): f"domain_{printer.quantity(atom)}" for atom in named}
+    supposed |= {known: label for known, label in domains.items() if known not in supposed}
     premises = [Fact(label, printer.always(r), r) for r, label in supposed.items()]
     rates = {d for r in (said, *supposed) for d in r.atoms(sp.Derivative) if t in d.variables}
     for field in sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)}):
@@ -98,8 +101,8 @@ def statement(judgement: Judgement) -> Statement:
 
 def _clocks(judgement: Judgement) -> dict[sp.Basic, sp.Expr]:
     """Return what the names of clocks mean in time, like N = t/T: no constants of a world."""
-    equations = (h.relation for h in judgement.hypotheses if isinstance(h.relation, sp.Equality))
-    return {e.lhs: e.rhs for e in equations if e.lhs.is_Symbol and e.lhs.name in CLOCKS - {t.name}}
+    meanings = (h.relation.args for h in judgement.hypotheses if h.kind is Kind.DEFINITION)
+    return {name: now for name, now in meanings if str(name) in CLOCKS - {t.name}}
 
 
 def _words(text: str) -> str:

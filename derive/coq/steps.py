@@ -153,8 +153,7 @@ def steps(judgements: Iterable[Judgement], rows: Record) -> dict[str, Step]:
 @cache
 def record() -> Record:
     """Return the committed record: whether a step is closed, or why not."""
-    rows: Record = json.loads(RECORD.read_text(encoding="utf-8"))
-    return rows
+    return dict(json.loads(RECORD.read_text(encoding="utf-8")))
 
 
 def proved_by_coq(judgement: Judgement) -> bool:

@@ -134,7 +134,7 @@ def _open_up(pieces: tuple[Piece, ...], limit: float) -> tuple[Piece, ...]:
             opened += _open_up(_unfenced(piece), limit)
         elif piece.kind == "root" and piece.width > 0.9 * limit:
             opened += _open_up(_as_power(piece), limit)
-        elif piece.kind == "fraction" and piece.width > 0.9 * limit:
+        elif piece.kind == "fraction" and piece.width > 0.9 * limit and not _is_rate(piece):
             followed = _is_factor(pieces[place + 1 :])
             opened += _open_up(_as_product(piece, limit, followed), limit)
         else:
@@ -169,6 +169,11 @@ def _unfenced(piece: Piece) -> tuple[Piece, ...]:
 def _as_power(root: Piece) -> tuple[Piece, ...]:
     """Return a root as a power of one half."""
     return _bracketed(root.parts[0], root.depth), Piece("^{1/2}", 1.0, depth=root.depth)
+
+
+def _is_rate(fraction: Piece) -> bool:
+    """Return whether a fraction is a derivative, which is no quotient."""
+    return source(fraction.parts[1]).startswith((r"\mathrm{d}", r"\partial"))
 
 
 def _as_product(fraction: Piece, limit: float, followed: bool) -> tuple[Piece, ...]:

@@ -119,11 +119,12 @@ class _NotePrinter(LatexPrinter):
     def _needs_mul_brackets(self, expr: sp.Expr, first: bool = False, last: bool = False) -> bool:
         """Return whether a factor is in brackets: what reaches further than itself, unless last."""
         reaches = expr.has(sp.Limit) or (self._small and isinstance(expr, sp.Derivative))
-        reaches = reaches or _is_extreme(expr)
+        reaches = reaches or _is_extreme(expr) or (self._is_bare(expr) and not self._small)
         return (reaches and not last) or bool(super()._needs_mul_brackets(expr, first, last))
 
     def _needs_add_brackets(self, expr: sp.Expr) -> bool:
-        return expr.has(sp.Limit) or bool(super()._needs_add_brackets(expr))
+        open_ = expr.has(sp.Limit) or isinstance(expr, sp.Piecewise)
+        return open_ or bool(super()._needs_add_brackets(expr))
 
     def parenthesize(self, item: sp.Expr, *levels: Any, **options: Any) -> str:
         """Return the base of a power, or the like, in brackets where it needs some."""
@@ -132,8 +133,15 @@ class _NotePrinter(LatexPrinter):
         return str(super().parenthesize(item, *levels, **options))
 
     def _print_log(self, expr: sp.Expr, exp: str | None = None) -> str:
-        bare = exp is None and expr.args[0].is_Symbol and not self._small
-        return rf"\ln {self._print(expr.args[0])}" if bare else str(super()._print_log(expr, exp))
+        inside = self._print(expr.args[0])
+        if exp is not None:
+            return rf"\ln^{{{exp}}}{{\left({inside} \right)}}"
+        bare = self._is_bare(expr) and not self._small
+        return rf"\ln {inside}" if bare else str(super()._print_log(expr))
+
+    def _is_bare(self, expr: sp.Expr) -> bool:
+        """Return whether an expression is a logarithm of a name, which needs no brackets alone."""
+        return isinstance(expr, sp.log) and bool(expr.args[0].is_Symbol)
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         on_the_line = self._small and expr.q != 1

@@ -8,16 +8,18 @@ import pytest
 import sympy as sp
 
 from derive import catalogue
+from derive.claims import Continuous
 from derive.coq import export, printer, prove, refutations
 from derive.coq.statements import statement, world
 from derive.coq.steps import proved_by_coq, record
+from derive.laws import GENERAL, r
 from derive.rules.inequalities import Arithmetic
 from derive.rules.solutions import ByParts
 from derive.symbols import symbols, t
 from tests.derive.judgements import SLOPE, eq, sloped
 from tests.programs import ended
 
-h, sigma, p, p_max, U_a, f_c, N = symbols("h sigma p p_max U_a f_c N")
+h, sigma, p, p_max, U_a, f_c, N, G, T = symbols("h sigma p p_max U_a f_c N G T")
 
 REQUIRED = ("8", "9", "10", "13", "14", "15", "17a", "17b", "18", "21", "22")
 
@@ -54,6 +56,27 @@ def test_terms_keep_their_structure(expr, written):
 def test_what_the_library_lacks_is_named():
     with pytest.raises(printer.UntranslatableError, match="besseli"):
         printer.term(sp.besseli(0, p_max))
+
+
+def test_a_statement_keeps_every_premise():
+    """A hypothesis on a clock, the domains of fields at other times, and the slope of a law."""
+    with pytest.raises(printer.UntranslatableError, match="N, which varies"):
+        statement(Arithmetic(sp.Ge(G, 0, evaluate=False))(eq(N, G)))
+    later = Arithmetic(sp.Ge(p.subs(t, t + T), 0, evaluate=False))()
+    assert "forall t, 0 <= t -> 0 <= p t" in statement(later).text
+    law = sp.Subs(sp.diff(GENERAL.phi, r), r, symbols("q")[0])
+    assert "Derive phi r < 0" in statement(Arithmetic(sp.Lt(law, 0))()).text
+    assert "Derive phi q < 0" in statement(Arithmetic(sp.Lt(law, 0))()).conclusion
+
+
+@pytest.mark.parametrize(
+    "relation",
+    [sp.Eq(p ** sp.Rational(1, 3), 0), Continuous(U_a.subs(t, t + T))],
+)
+def test_what_coq_would_take_for_something_else_is_not_stated(relation):
+    """Its power is 1 at 0, and continuity is that of a function."""
+    with pytest.raises(printer.UntranslatableError):
+        printer.proposition(relation)
 
 
 def test_a_sum_with_a_limit_is_no_product():

@@ -412,7 +412,24 @@ def test_a_law_that_is_not_the_notes_is_shown() -> None:
     assert not assume(Hypothesis(contact(TANH), Kind.MODEL)).conditions
 
 
-@pytest.mark.parametrize("name", ["du_c", "dt", "dT", "maxU_a", "minh", "E"])
+LOOKING = [
+    "du_c",
+    "dt",
+    "dT",
+    "dx",
+    "maxU_a",
+    "minh",
+    "E",
+    "O",
+    "inf",
+    "lim_t",
+    "max_t",
+    "ln_2",
+    "sin2",
+]
+
+
+@pytest.mark.parametrize("name", LOOKING)
 def test_no_name_looks_like_an_operation(name: str) -> None:
     with pytest.raises(RuleError, match="no real quantity"):
         eq(sp.Symbol(name, real=True), h_0)

@@ -5,11 +5,15 @@ import re
 from pathlib import Path
 
 import pytest
+import sympy as sp
 
 from derive import catalogue
+from derive.claims import Drift
 from derive.cli import main
+from derive.symbols import symbols
 from derive.typeset.breaking import broken
 from derive.typeset.derivation import Derivations, prose
+from derive.typeset.display import latex
 from derive.typeset.macros import macro_name, macros, room
 from tests.programs import run
 
@@ -116,6 +120,27 @@ def test_a_derivation_says_what_a_formula_does_not():
     law, terms = (prose(catalogue.equations_up_to(i), 29.0) for i in ("general-law", "expansion"))
     assert "any positive, smooth, decreasing contact law" in law
     assert "of period 1 and mean 0" in terms
+
+
+def test_a_bare_logarithm_ends_a_product():
+    """ln k u_c may be read as ln(k u_c)."""
+    k, h, u_c = symbols("k h u_c")
+    assert latex(sp.log(k) * u_c) == r"\left(\ln k\right) u_c"
+    assert latex(2 * sp.log(k)) == r"2 \ln k"
+    assert latex(sp.log(k) ** 2) == r"\ln^{2}{\left(k \right)}"
+    pieces = sp.Piecewise((h, h > 0), (0, True))
+    assert r"\end{cases}\right) + u_c" in latex(pieces + u_c)
+
+
+def test_the_variable_of_a_law_of_an_expansion_is_named():
+    (x, y), (tau, rho) = sp.symbols("x y", positive=True), symbols("tau rho")
+    terms = [Drift(1, 1 + sp.tanh(x / y), each, tau, rho) for each in (x, y)]
+    assert latex(terms[0]) != latex(terms[1])
+    assert sp.pretty(terms[0]) != sp.pretty(terms[1])
+
+
+def test_a_rate_is_opened_to_no_quotient():
+    assert not re.search(r"mathrm\{d\}t\\bigr", macros(catalogue.all_equations(), 8.0))
 
 
 def test_a_factor_after_a_broken_fraction_is_not_in_its_denominator():
