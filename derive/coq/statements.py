@@ -86,10 +86,10 @@ def statement(judgement: Judgement) -> Statement:
     supposed = {h.relation.xreplace(of_time): f"for_{_words(h.text)}" for h in judgement.hypotheses}
     free = said.free_symbols.union(*(relation.free_symbols for relation in supposed))
     supposed.pop(sp.true, None)
-    atoms = (known.args[0] for known in judgement.domains)
-    named = {a.func(t) if a.args else a: None for a in atoms if a.args or a in free - {t}}
-    domains = {domain(atom): f"domain_{printer.quantity(atom)}" for atom in named}
-    supposed |= {known: label for known, label in domains.items() if known not in supposed}
+    for atom in (known.args[0] for known in judgement.domains):
+        if atom.args or atom in free - {t}:
+            always = domain(atom.func(t) if atom.args else atom)
+            supposed.setdefault(always, f"domain_{printer.quantity(atom)}")
     premises = [Fact(label, printer.always(r), r) for r, label in supposed.items()]
     rates = {d for r in (said, *supposed) for d in r.atoms(sp.Derivative) if t in d.variables}
     for field in sorted({printer.quantity(f) for d in rates for f in d.atoms(AppliedUndef)}):

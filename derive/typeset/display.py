@@ -119,7 +119,7 @@ class _NotePrinter(LatexPrinter):
     def _needs_mul_brackets(self, expr: sp.Expr, first: bool = False, last: bool = False) -> bool:
         """Return whether a factor is in brackets: what reaches further than itself, unless last."""
         reaches = expr.has(sp.Limit) or (self._small and isinstance(expr, sp.Derivative))
-        reaches = reaches or _is_extreme(expr) or (self._is_bare(expr) and not self._small)
+        reaches = reaches or _is_extreme(expr) or (_is_bare(expr) and not self._small)
         return (reaches and not last) or bool(super()._needs_mul_brackets(expr, first, last))
 
     def _needs_add_brackets(self, expr: sp.Expr) -> bool:
@@ -136,12 +136,8 @@ class _NotePrinter(LatexPrinter):
         inside = self._print(expr.args[0])
         if exp is not None:
             return rf"\ln^{{{exp}}}{{\left({inside} \right)}}"
-        bare = self._is_bare(expr) and not self._small
+        bare = _is_bare(expr) and not self._small
         return rf"\ln {inside}" if bare else str(super()._print_log(expr))
-
-    def _is_bare(self, expr: sp.Expr) -> bool:
-        """Return whether an expression is a logarithm of a name, which needs no brackets alone."""
-        return isinstance(expr, sp.log) and bool(expr.args[0].is_Symbol)
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         on_the_line = self._small and expr.q != 1
@@ -194,6 +190,11 @@ def _is_later(factor: sp.Expr) -> bool:
     """Return whether a factor is a power of t + T."""
     base = factor.base if factor.is_Pow else factor
     return bool(base.is_Add) and set(base.args) == _LATER
+
+
+def _is_bare(expr: sp.Expr) -> bool:
+    """Return whether an expression is a logarithm of a name, which needs no brackets alone."""
+    return isinstance(expr, sp.log) and bool(expr.args[0].is_Symbol)
 
 
 def _is_extreme(expr: sp.Expr) -> bool:

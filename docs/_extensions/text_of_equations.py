@@ -63,8 +63,9 @@ def _without(row: reasons.Reason) -> str:
     if not row.model:
         return f"- Without the condition *{condition}*: no counterexample was found."
     model = ", ".join(f"${part}$" for part in row.model)
-    verdict = "has no meaning" if row.left or "no value" in row.where else "fails"
-    verdict += f", as ${row.left}$ fails," if row.left else ""
+    verdict = "has no meaning" if "no value" in row.where else "fails"
+    if row.left:
+        verdict = f"has no meaning, as ${row.left}$ fails,"
     return f"- Without the condition *{condition}* it {verdict} for {model}: {row.where}."
 
 

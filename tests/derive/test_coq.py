@@ -177,19 +177,22 @@ def test_what_is_not_closed_has_a_reason():
     assert all(row["closed"] or row["reason"] for row in record().values())
 
 
-def test_the_record_is_of_these_statements():
-    made = export.Export(catalogue.all_equations())
-    assert made.unrecorded == ""
-    assert len(record()) == len(made.steps)
+@pytest.fixture(scope="module")
+def everything():
+    return export.Export(catalogue.all_equations())
 
 
-def test_every_inference_is_closed_or_listed_with_its_reason():
-    made = export.Export(catalogue.all_equations())
-    proved = [step for step in made.inferences if proved_by_coq(step)]
-    listed = re.findall(r"^\(\* .*:\n   (.+) \*\)$", made.files["Unstated"], re.MULTILINE)
-    assert made.counts["closed"] == len(proved)
-    assert made.counts["unstated"] == len(listed)
-    assert len(proved) + len(listed) == made.counts["steps"] == len(made.inferences)
+def test_the_record_is_of_these_statements(everything):
+    assert everything.unrecorded == ""
+    assert len(record()) == len(everything.steps)
+
+
+def test_every_inference_is_closed_or_listed_with_its_reason(everything):
+    proved = [step for step in everything.inferences if proved_by_coq(step)]
+    listed = re.findall(r"^\(\* .*:\n   (.+) \*\)$", everything.files["Unstated"], re.MULTILINE)
+    assert everything.counts["closed"] == len(proved)
+    assert everything.counts["unstated"] == len(listed)
+    assert len(proved) + len(listed) == everything.counts["steps"] == len(everything.inferences)
 
 
 def test_nothing_is_admitted():
